@@ -1,0 +1,41 @@
+// Dense disparity from a rectified stereo pair.
+#pragma once
+
+#include <memory>
+#include <opencv2/core.hpp>
+
+#include "pomona/disparity.h"
+#include "pomona/options.h"
+
+namespace pomona {
+
+/// Matches frame after frame, reusing every buffer. One engine serves one thread at a time.
+class StereoEngine {
+ public:
+  /// Throws std::invalid_argument if `options` is not valid.
+  explicit StereoEngine(const Options& options = {});
+  ~StereoEngine();
+  StereoEngine(StereoEngine&&) noexcept;
+  StereoEngine& operator=(StereoEngine&&) noexcept;
+
+  /// `left`, `right`: rectified views of equal size and type, CV_8U or CV_16U with 1 or 3 channels (BGR), any
+  /// stride. `mask`: empty, or CV_8U of the same size; pixels that are 0 are neither measured nor filled.
+  /// The result shares its maps with the engine: they stay valid until the next call; clone() what must last.
+  /// Throws std::invalid_argument for unusable input.
+  const StereoResult& compute(const cv::Mat& left, const cv::Mat& right, const cv::Mat& mask = {});
+
+  const Options& options() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// One pair, one call. The result owns its maps.
+StereoResult computeDisparity(const cv::Mat& left, const cv::Mat& right, const Options& options = {});
+
+/// The number of disparities (from `min_disparity` up, a multiple of 16) that the pair seems to need, from a match
+/// at a quarter of its size. Never more than the image width or 1024.
+int estimateNumDisparities(const cv::Mat& left, const cv::Mat& right, int min_disparity = 0);
+
+}  // namespace pomona

@@ -1,0 +1,103 @@
+// Everything a caller can set, one struct per stage of the frame's journey.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace pomona {
+
+enum class MatchingCost {
+  kCensus5x5,                 ///< 24-bit census (Zabih & Woodfill 1994), cost 0..24
+  kCensus7x7,                 ///< 48-bit census, cost 0..48
+  kCensus9x7,                 ///< 62-bit census, cost 0..62
+  kCenterSymmetricCensus9x7,  ///< 31-bit centre-symmetric census (Spangenberg et al. 2013), cost 0..31
+  kMutualInformation,         ///< hierarchical mutual information (Hirschmueller 2008), cost 0..127
+};
+
+struct CostOptions {
+  MatchingCost cost = MatchingCost::kCensus9x7;
+};
+
+enum class PenaltyAdaptation {
+  kConstant,          ///< P2 everywhere
+  kInverseIntensity,  ///< P2' = max(P1, P2 / |I(p) - I(q)|)   (Hirschmueller 2008, below Eq. 13)
+  kSoftIntensity,     ///< P2' = max(p2_min, P2 / (1 + |I(p) - I(q)| / 10))
+};
+
+/// Semi-global aggregation. Penalties are in units of the matching cost.
+/// Path costs live in 8 bits, so the largest cost + p1 + p2 must not exceed 255.
+struct AggregationOptions {
+  int paths = 8;    ///< 4 (horizontal and vertical) or 8 (and diagonal)
+  int p1 = 10;      ///< penalty for a disparity step of one; 1 <= p1 <= p2
+  int p2 = 60;      ///< penalty for a larger step
+  int p2_min = 20;  ///< lower bound of the adapted penalty (kSoftIntensity); p1 <= p2_min <= p2
+  PenaltyAdaptation adaptation = PenaltyAdaptation::kSoftIntensity;
+};
+
+enum class SubpixelMethod {
+  kNone,         ///< whole pixels
+  kParabola,     ///< vertex of the parabola through three costs
+  kEquiangular,  ///< apex of two lines of equal and opposite slope (Shimizu & Okutomi 2001)
+};
+
+struct WinnerOptions {
+  SubpixelMethod subpixel = SubpixelMethod::kEquiangular;
+  /// Reject a pixel if its best cost is not at least this many percent below the best cost found more than
+  /// one disparity away. 0 accepts everything; 0..100.
+  int uniqueness_percent = 0;
+};
+
+struct ValidationOptions {
+  /// Largest |d_left - d_right| in pixels that passes; a negative value switches the check off.
+  float left_right_px = 1.0f;
+  /// Connected regions (4-neighbours, disparity steps up to speckle_step_px) of fewer pixels are removed; 0: off.
+  int speckle_size_px = 50;
+  float speckle_step_px = 1.0f;
+  int median_size = 3;  ///< 0 (off), 3 or 5
+};
+
+enum class CompletionMethod {
+  kFillHoles,  ///< measured pixels stay; holes filled from their surroundings, coarse maps as the last resort
+  kPaper,      ///< the seed paper: coarse maps only, bilateral on every pixel, equal-weight fusion
+};
+
+struct CompletionOptions {
+  CompletionMethod method = CompletionMethod::kFillHoles;
+  /// A hole is filled from measured pixels at most this far away (pixels along a search ray); farther away the
+  /// coarse maps decide. At least 1.
+  int search_radius_px = 200;
+  float sigma_space_px = 10.0f;  ///< joint bilateral: spatial standard deviation, at the coarse scale (sigma_s)
+  float sigma_range = 30.0f;     ///< joint bilateral: guide-image standard deviation, 8-bit units (sigma_r)
+  int pyramid_levels = 6;        ///< Laplacian pyramid levels of the fusion, 1..16
+};
+
+enum class OutputMode {
+  kSparse,  ///< measured pixels only
+  kDense,   ///< every pixel that the mask does not exclude
+};
+
+struct Options {
+  int min_disparity = 0;     ///< smallest disparity searched, pixels; may be negative
+  int num_disparities = 64;  ///< number of disparities searched, 1..1024; at most the image width
+  OutputMode mode = OutputMode::kDense;
+
+  CostOptions cost;
+  AggregationOptions aggregation;
+  WinnerOptions winner;
+  ValidationOptions validation;
+  CompletionOptions completion;
+
+  int threads = 0;  ///< worker threads; 0: one per available processor; at most 1024
+  std::string isa;  ///< "scalar", "avx2", "avx512", "neon"; empty: POMONA_ISA if set, else the best the CPU has
+
+  /// Throws std::invalid_argument naming the field, its value and the allowed range.
+  void validate() const;
+
+  /// "fast", "balanced" (the default), "quality" or "paper"; throws std::invalid_argument for another name.
+  static Options preset(std::string_view name);
+};
+
+/// Largest value the matching cost can take.
+int maximumCost(MatchingCost cost);
+
+}  // namespace pomona
