@@ -60,6 +60,13 @@ void finishRow(const WinnerMaps& w, int y, const MatchOptions& o, MatchMaps& out
 
 }  // namespace
 
+void MatchMaps::resize(int width, int height) {
+  disparity.resize(width, height);
+  right_disparity.resize(width, height);
+  margin.resize(width, height);
+  state.resize(width, height);
+}
+
 void SgmMatcher::match(const GrayPair& pair, const MatchOptions& options, std::span<const std::uint8_t> table,
                        const SgmKernels& kernels, MatchMaps& out, int threads) {
   const MatchingCost kind = options.cost.cost;
@@ -81,10 +88,7 @@ void SgmMatcher::match(const GrayPair& pair, const MatchOptions& options, std::s
   }
   aggregator_.run(cost_, pair.left, options.aggregation, kernels, winners_, threads);
 
-  out.disparity.resize(width, height);
-  out.right_disparity.resize(width, height);
-  out.margin.resize(width, height);
-  out.state.resize(width, height);
+  out.resize(width, height);
   parallelStrips(threads, height, 16, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) finishRow(winners_, y, options, out);
   });
