@@ -84,10 +84,10 @@ void averageAreas(const Interleaved<T>& in, Image<T>& out, int out_w, int out_h,
 }
 
 // Keys 1981, Eq. 15: the kernel at distance s, for a = -1/2.
-float keys(float s) {
+double keys(double s) {
   s = std::abs(s);
-  if (s < 1) return (1.5f * s - 2.5f) * s * s + 1;
-  return s < 2 ? ((-0.5f * s + 2.5f) * s - 4) * s + 2 : 0;
+  if (s < 1) return (1.5 * s - 2.5) * s * s + 1;
+  return s < 2 ? ((-0.5 * s + 2.5) * s - 4) * s + 2 : 0;
 }
 
 // Output centre x lies at (x + 1/2) in / out - 1/2 of the input: computed exactly, in units of 1 / (2 out).
@@ -99,11 +99,11 @@ void prepareTaps(int in, int out, CubicTaps& taps) {
     const std::int64_t unit = 2 * std::int64_t{out};
     const std::int64_t position = (2 * static_cast<std::int64_t>(x) + 1) * in - out;
     const std::int64_t whole = (position + unit) / unit - 1;  // floor: position >= -unit
-    const float fraction = static_cast<float>(position - whole * unit) / static_cast<float>(unit);
+    const double fraction = static_cast<double>(position - whole * unit) / static_cast<double>(unit);
     for (int k = 0; k < 4; ++k) {
       const std::size_t tap = static_cast<std::size_t>(k) * n + x;
       taps.index[tap] = static_cast<std::int32_t>(std::clamp<std::int64_t>(whole + k - 1, 0, in - 1));
-      taps.weight[tap] = keys(fraction - static_cast<float>(k - 1));
+      taps.weight[tap] = static_cast<float>(keys(fraction - (k - 1)));
     }
   }
 }
