@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/cpu.h"
 #include "core/parallel.h"
 #include "engine/coarse_stage.h"
 #include "engine/confidence.h"
@@ -135,7 +136,7 @@ const StereoResult& StereoEngine::compute(const cv::Mat& left, const cv::Mat& ri
       clock.lap("completion");
     }
   }
-  estimateConfidence(s.sparse.maps(), s.options, s.confidence, s.threads);
+  estimateConfidence(s.sparse.maps(), s.options.aggregation, s.confidence, s.threads);
   clock.lap("confidence");
   s.publish();
   return s.result;

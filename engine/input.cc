@@ -93,7 +93,7 @@ void InputPair::set(const cv::Mat& left, const cv::Mat& right, int threads) {
     // 8-bit stages see the upper bits that are in use: 10- and 12-bit cameras leave the top ones empty.
     const int largest =
         std::max(largestValue(viewOf<std::uint16_t>(left)), largestValue(viewOf<std::uint16_t>(right)));
-    const int shift = std::max(0, std::bit_width(static_cast<unsigned>(largest)) - 8);
+    const int shift = std::max(0, static_cast<int>(std::bit_width(static_cast<unsigned>(largest))) - 8);
     for (int i = 0; i < 2; ++i) {
       gray16[i] = grayOf(*images[i], buffers_[i].gray16, threads);
       gray8[i] = shiftedDown(gray16[i], shift, buffers_[i].gray8, threads);

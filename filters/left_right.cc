@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/parallel.h"
-#include "pomona/disparity.h"
+#include "pomona/pixel_state.h"
 
 namespace pomona {
 namespace {

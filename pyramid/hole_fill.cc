@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/parallel.h"
-#include "pomona/disparity.h"
+#include "pomona/pixel_state.h"
 
 namespace pomona {
 namespace {
@@ -82,7 +82,7 @@ class HoleFiller {
   }
 
   // Writes holes only and reads disparities at sources only: holes may be filled in any order. False, and
-  // NaN, if no source is within reach and the coarse map has nothing either.
+  // NaN, if no source is within reach.
   bool fill(int hole) {
     const HoleRays::Pixel p = rays_.holes()[hole];
     const Candidates candidates = collect(hole, p);
@@ -93,13 +93,20 @@ class HoleFiller {
       disparity = candidates.quantile(background ? 1 : 2);
     else
       disparity = std::isnan(candidates.row_background) ? candidates.smallest : candidates.row_background;
-    if (!std::isnan(disparity)) {
-      state = filledState(state);
-    } else if (!in_.coarse.empty() && !std::isnan(in_.coarse.at(p.y, p.x))) {
-      disparity = in_.coarse.at(p.y, p.x);
-      state = static_cast<std::uint8_t>(PixelState::kFilledCoarse);
-    }
-    return !std::isnan(disparity);
+    if (std::isnan(disparity)) return false;
+    state = filledState(state);
+    return true;
+  }
+
+  // For a hole that fill() left open.
+  bool fillFromCoarse(int hole, ImageView<const float> coarse) {
+    const HoleRays::Pixel p = rays_.holes()[hole];
+    float& disparity = disparity_.at(p.y, p.x);
+    if (!std::isnan(disparity)) return true;
+    disparity = coarse.at(p.y, p.x);
+    if (std::isnan(disparity)) return false;
+    state_.at(p.y, p.x) = static_cast<std::uint8_t>(PixelState::kFilledCoarse);
+    return true;
   }
 
   static bool isBackground(std::uint8_t state) {
@@ -223,12 +230,18 @@ void fillHoles(const HoleFillInput& in, ImageView<float> disparity, ImageView<st
   if (scratch.rays.count() == 0) return;
   scratch.rays.follow(in.search_radius_px, kernels, threads);
   HoleFiller filler(in, disparity, state, scratch);
-  std::atomic<bool> complete{true};
-  parallelStrips(threads, scratch.rays.count(), kMinHolesPerStrip, [&](int begin, int end) {
-    for (int hole = begin; hole < end; ++hole)
-      if (!filler.fill(hole)) complete = false;
-  });
-  if (!complete) fillDistant(disparity, state, in.fallback_disparity, threads);
+  const auto forEachHole = [&](auto&& fill) {
+    std::atomic<bool> complete{true};
+    parallelStrips(threads, scratch.rays.count(), kMinHolesPerStrip, [&](int begin, int end) {
+      for (int hole = begin; hole < end; ++hole)
+        if (!fill(hole)) complete = false;
+    });
+    return complete.load();
+  };
+  if (forEachHole([&](int hole) { return filler.fill(hole); })) return;
+  const ImageView<const float> coarse = in.coarse();
+  if (!coarse.empty() && forEachHole([&](int hole) { return filler.fillFromCoarse(hole, coarse); })) return;
+  fillDistant(disparity, state, in.fallback_disparity, threads);
 }
 
 }  // namespace pomona

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
-#include "pomona/disparity.h"
+#include "pomona/pixel_state.h"
 
 namespace pomona {
 namespace {
