@@ -17,7 +17,7 @@ void estimateConfidence(const MatchMaps& maps, const AggregationOptions& aggrega
         float c = 0;
         switch (static_cast<PixelState>(maps.state.row(y)[x])) {
           case PixelState::kMeasured:
-            c = margin[x] / (margin[x] + half);
+            c = (1 + margin[x]) / (1 + margin[x] + half);
             break;
           case PixelState::kFilledInterpolated:
             c = 0.2f;
