@@ -1,12 +1,11 @@
 #include "filters/speckle.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "core/parallel.h"
+#include "filters/flags.h"
 #include "pomona/pixel_state.h"
 
 namespace pomona {
@@ -39,19 +38,13 @@ void unite(Run* runs, int a, int b) {
 /// Calls `visit(x)` in rising order for each x in [1, width) where row[x] is not connected to row[x - 1].
 template <typename Visit>
 void forEachBreak(const float* row, int width, float max_step_px, Visit visit) {
-  static_assert(std::endian::native == std::endian::little);
-  constexpr int kChunk = 64;
-  alignas(kChunk) std::uint8_t breaks[kChunk] = {};
-  for (int begin = 1; begin < width; begin += kChunk) {
-    const int count = std::min(kChunk, width - begin);
+  FlagChunk breaks;
+  for (int begin = 1; begin < width; begin += FlagChunk::kPixels) {
+    const int count = std::min(FlagChunk::kPixels, width - begin);
     for (int i = 0; i < count; ++i)
-      breaks[i] = !(std::fabs(row[begin + i] - row[begin + i - 1]) <= max_step_px);  // NaN breaks as well
-    std::fill(breaks + count, breaks + kChunk, std::uint8_t{0});
-    for (int i = 0; i < kChunk; i += 8) {
-      std::uint64_t flags;  // one byte per pixel, 0 or 1
-      std::memcpy(&flags, breaks + i, 8);
-      for (; flags != 0; flags &= flags - 1) visit(begin + i + std::countr_zero(flags) / 8);
-    }
+      breaks.flags[i] =
+          !(std::fabs(row[begin + i] - row[begin + i - 1]) <= max_step_px);  // NaN breaks as well
+    breaks.forEachSet(count, [&](int i) { visit(begin + i); });
   }
 }
 
