@@ -243,7 +243,6 @@ TEST(FillHoles, WithoutAPossibleCandidateTheRowsBackgroundWins) {
   s.dig(1, 6, PixelState::kOccluded);
   s.dig(1, 5, PixelState::kOccluded);
   s.dig(1, 4, PixelState::kOccluded);
-  s.right.fill([](int, int, int) { return -50.0f; });
   s.fill();
   EXPECT_EQ(s.disparity.at(1, 6), 5.0f);  // of 6 and 5, although 4 is near as well
 }
