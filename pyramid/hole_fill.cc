@@ -16,12 +16,12 @@ constexpr std::size_t kRowRays = 2;  // kRays[0] and [1]
 constexpr double kColorScale = 12;
 constexpr double kDistanceScale_px = 30;
 constexpr float kVisibilityTolerance_px = 1.5f;
-constexpr int kMinHolesPerStrip = 512;
+constexpr int kMinBatchesPerStrip = 16;
 constexpr int kMinLinesPerStrip = 16;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
 std::uint32_t integerWeight(double exponent) {
-  return static_cast<std::uint32_t>(std::max(1L, std::lround(std::ldexp(std::exp(-exponent), 28))));
+  return static_cast<std::uint32_t>(std::lround(65535 * std::exp(-exponent)));
 }
 
 // std::min, but NaN counts as absent.
@@ -29,76 +29,56 @@ float smaller(float a, float b) {
   return std::isnan(a) || b < a ? b : a;
 }
 
-struct Candidate {
-  float disparity;
-  std::uint64_t weight;
-};
+bool isBackground(std::uint8_t state) {
+  const PixelState s = static_cast<PixelState>(state);
+  return s == PixelState::kOccluded || s == PixelState::kOutOfRange;
+}
 
-// The possible candidates of one hole, kept in ascending order, and what to fall back on.
-struct Candidates {
-  std::array<Candidate, kRays.size()> sorted;
-  int count = 0;
-  std::uint64_t total_weight = 0;
-  float row_background = kNan;
-  float smallest = kNan;
+std::uint8_t filledState(std::uint8_t state) {
+  return static_cast<std::uint8_t>(isBackground(state) ? PixelState::kFilledBackground
+                                                       : PixelState::kFilledInterpolated);
+}
 
-  void insert(Candidate c) {
-    int i = count++;
-    for (; i > 0 && c.disparity < sorted[static_cast<std::size_t>(i - 1)].disparity; --i)
-      sorted[static_cast<std::size_t>(i)] = sorted[static_cast<std::size_t>(i - 1)];
-    sorted[static_cast<std::size_t>(i)] = c;
-    total_weight += c.weight;
-  }
-  // The first whose weight together with all before reaches `quarters` of four parts of the total.
-  float quantile(std::uint64_t quarters) const {
-    std::uint64_t sum = 0;
-    std::size_t i = 0;
-    while (4 * (sum += sorted[i].weight) < quarters * total_weight) ++i;
-    return sorted[i].disparity;
-  }
-};
-
+// Fills holes in batches. Only holes are written, and only sources decide: the order of the batches is of no
+// account.
 class HoleFiller {
  public:
   HoleFiller(const HoleFillInput& in, ImageView<float> disparity, ImageView<std::uint8_t> state,
-             HoleFillScratch& scratch)
-      : in_(in),
-        disparity_(disparity),
-        state_(state),
-        rays_(scratch.rays),
-        color_weight_(scratch.color_weight),
-        distance_weight_(scratch.distance_weight),
-        most_steps_(std::max(disparity.width, disparity.height)) {
-    const int channels = in.guide.channels;
-    color_weight_.resize(3 * 255 + 1);
-    for (int i = 0; i <= 255 * channels; ++i)
-      color_weight_[static_cast<std::size_t>(i)] = integerWeight(i / (channels * kColorScale));
-    distance_weight_.resize(3 * static_cast<std::size_t>(most_steps_));
-    const int longest = std::min(most_steps_ - 1, in.search_radius_px);
-    for (int squared_step : {1, 2, 5})
-      for (int i = 0; i <= longest; ++i)
-        distance_weight_[distanceIndex(squared_step, i)] =
-            integerWeight(i * std::sqrt(static_cast<double>(squared_step)) / kDistanceScale_px);
+             HoleFillScratch& scratch, const PyramidKernels& kernels, int threads)
+      : in_(in), disparity_(disparity), state_(state), rays_(scratch.rays), kernels_(kernels) {
+    packGuide(scratch, threads);
+    tabulateWeights(scratch);
   }
 
-  // Writes holes only and reads disparities at sources only: holes may be filled in any order. False, and
-  // NaN, if no source is within reach.
-  bool fill(int hole) {
-    const HoleRays::Pixel p = rays_.holes()[hole];
-    const Candidates candidates = collect(hole, p);
-    std::uint8_t& state = state_.at(p.y, p.x);
-    float& disparity = disparity_.at(p.y, p.x);
-    const bool background = isBackground(state);
-    if (candidates.count > 0)
-      disparity = candidates.quantile(background ? 1 : 2);
-    else
-      disparity = std::isnan(candidates.row_background) ? candidates.smallest : candidates.row_background;
-    if (std::isnan(disparity)) return false;
-    state = filledState(state);
-    return true;
+  int batches() const { return (rays_.count() + kHoleBatch - 1) / kHoleBatch; }
+
+  // False if a hole is left NaN: no source is within its reach.
+  bool fillBatch(int batch) {
+    const int first = batch * kHoleBatch, n = std::min(kHoleBatch, rays_.count() - first);
+    std::int32_t x[kHoleBatch], y[kHoleBatch];
+    std::uint32_t color[kHoleBatch], quarters[kHoleBatch];
+    for (int i = 0; i < n; ++i) {
+      const HoleRays::Pixel p = rays_.holes()[first + i];
+      x[i] = p.x;
+      y[i] = p.y;
+      color[i] = colors_.at(p.y, p.x);
+      quarters[i] = isBackground(state_.at(p.y, p.x)) ? 1 : 2;
+    }
+    float candidates[kRays.size() * kHoleBatch], chosen[kHoleBatch];
+    std::uint32_t weights[kRays.size() * kHoleBatch];
+    for (std::size_t k = 0; k < kRays.size(); ++k) {
+      const std::size_t plane = k * static_cast<std::size_t>(n);
+      kernels_.gatherCandidates(sources_[k], x, y, color, rays_.steps(k) + first, n, candidates + plane,
+                                weights + plane);
+    }
+    kernels_.weightedQuantile(candidates, weights, quarters, n, chosen);
+    bool complete = true;
+    for (int i = 0; i < n; ++i)
+      complete &= fillHole(first + i, std::isinf(chosen[i]) ? leastImpossible(first + i) : chosen[i]);
+    return complete;
   }
 
-  // For a hole that fill() left open.
+  // For a hole that fillBatch() left NaN. False if it stays so.
   bool fillFromCoarse(int hole, ImageView<const float> coarse) {
     const HoleRays::Pixel p = rays_.holes()[hole];
     float& disparity = disparity_.at(p.y, p.x);
@@ -109,59 +89,72 @@ class HoleFiller {
     return true;
   }
 
-  static bool isBackground(std::uint8_t state) {
-    const PixelState s = static_cast<PixelState>(state);
-    return s == PixelState::kOccluded || s == PixelState::kOutOfRange;
-  }
-  static std::uint8_t filledState(std::uint8_t state) {
-    return static_cast<std::uint8_t>(isBackground(state) ? PixelState::kFilledBackground
-                                                         : PixelState::kFilledInterpolated);
-  }
-
  private:
-  std::size_t distanceIndex(int squared_step, int steps) const {  // 1, 2, 5: table 0, 1, 2
-    return static_cast<std::size_t>(squared_step / 2 * most_steps_ + steps);
+  void packGuide(HoleFillScratch& scratch, int threads) {
+    scratch.colors.resize(in_.guide.width, in_.guide.height);
+    colors_ = scratch.colors.view();
+    parallelStrips(threads, in_.guide.height, kMinLinesPerStrip, [&](int begin, int end) {
+      for (int y = begin; y < end; ++y)
+        kernels_.packColors(in_.guide.row(y), in_.guide.channels, in_.guide.width, scratch.colors.row(y));
+    });
   }
 
-  Candidates collect(int hole, HoleRays::Pixel p) const {
-    Candidates result;
-    for (std::size_t k = 0; k < kRays.size(); ++k) {
-      const std::uint16_t steps = rays_.steps(k)[hole];
-      if (steps == HoleRays::kNoSource) continue;
-      const int x = p.x + kRays[k].dx * steps, y = p.y + kRays[k].dy * steps;
-      const float e = disparity_.at(y, x);
-      result.smallest = smaller(result.smallest, e);
-      if (k < kRowRays) result.row_background = smaller(result.row_background, e);
-      if (!isPossible(p, e)) continue;
-      const std::uint64_t distance_weight = distance_weight_[distanceIndex(kRays[k].squaredStep(), steps)];
-      result.insert({e, distance_weight * color_weight_[colorDifference(p, x, y)]});
-    }
-    return result;
-  }
-
-  bool isPossible(HoleRays::Pixel p, float e) const {
-    const float x_right = std::floor(static_cast<float>(p.x) - e + 0.5f);
-    if (!(x_right >= 0 && x_right < static_cast<float>(in_.right_disparity.width))) return true;
-    const float seen = in_.right_disparity.at(p.y, static_cast<int>(x_right));
-    return !(seen < e - kVisibilityTolerance_px);
-  }
-
-  std::size_t colorDifference(HoleRays::Pixel p, int x, int y) const {
+  void tabulateWeights(HoleFillScratch& scratch) {
     const int channels = in_.guide.channels;
-    const std::uint8_t* a = in_.guide.row(p.y) + p.x * channels;
-    const std::uint8_t* b = in_.guide.row(y) + x * channels;
-    int sum = 0;
-    for (int c = 0; c < channels; ++c) sum += std::abs(a[c] - b[c]);
-    return static_cast<std::size_t>(sum);
+    scratch.color_weight.resize(3 * 255 + 1);
+    for (int i = 0; i <= 3 * 255; ++i) scratch.color_weight[i] = integerWeight(i / (channels * kColorScale));
+    const int longest = std::max(disparity_.width, disparity_.height);  // in steps
+    scratch.distance_weight.resize(kRays.size() * static_cast<std::size_t>(longest));
+    for (std::size_t k = 0; k < kRays.size(); ++k) {
+      std::uint32_t* table = scratch.distance_weight.data() + k * static_cast<std::size_t>(longest);
+      const double step_px = std::sqrt(static_cast<double>(kRays[k].squaredStep()));
+      for (int i = 0; i < longest && i <= in_.search_radius_px; ++i)
+        table[i] = integerWeight(i * step_px / kDistanceScale_px);
+      sources_[k] = {.disparity = disparity_.data,
+                     .disparity_stride = static_cast<std::int32_t>(disparity_.stride),
+                     .right_disparity = in_.right_disparity.data,
+                     .right_stride = static_cast<std::int32_t>(in_.right_disparity.stride),
+                     .color = colors_.data,
+                     .color_stride = static_cast<std::int32_t>(colors_.stride),
+                     .width = disparity_.width,
+                     .visibility_tolerance_px = kVisibilityTolerance_px,
+                     .color_weight = scratch.color_weight.data(),
+                     .distance_weight = table,
+                     .dx = kRays[k].dx,
+                     .dy = kRays[k].dy};
+    }
+  }
+
+  // Where every candidate is impossible: the background of the row, or of all directions. NaN without any.
+  float leastImpossible(int hole) const {
+    const HoleRays::Pixel p = rays_.holes()[hole];
+    float row = kNan, all = kNan;
+    for (std::size_t k = 0; k < kRays.size(); ++k) {
+      const int steps = rays_.steps(k)[hole];
+      if (steps == HoleRays::kNoSource) continue;
+      const float e = disparity_.at(p.y + kRays[k].dy * steps, p.x + kRays[k].dx * steps);
+      all = smaller(all, e);
+      if (k < kRowRays) row = smaller(row, e);
+    }
+    return std::isnan(row) ? all : row;
+  }
+
+  bool fillHole(int hole, float value) {
+    const HoleRays::Pixel p = rays_.holes()[hole];
+    std::uint8_t& state = state_.at(p.y, p.x);
+    disparity_.at(p.y, p.x) = value;
+    if (std::isnan(value)) return false;
+    state = filledState(state);
+    return true;
   }
 
   const HoleFillInput& in_;
   ImageView<float> disparity_;
   ImageView<std::uint8_t> state_;
   const HoleRays& rays_;
-  Buffer<std::uint32_t>& color_weight_;
-  Buffer<std::uint32_t>& distance_weight_;
-  int most_steps_;
+  ImageView<const std::uint32_t> colors_;
+  const PyramidKernels& kernels_;
+  std::array<CandidateSources, kRays.size()> sources_;
 };
 
 // A row or column of the map.
@@ -178,7 +171,7 @@ struct Line {
   bool hasValue(int i) const { return !isMasked(i) && !std::isnan(value(i)); }
   void fill(int i, float value_px) const {
     value(i) = value_px;
-    stateAt(i) = HoleFiller::filledState(stateAt(i));
+    stateAt(i) = filledState(stateAt(i));
   }
 };
 
@@ -229,18 +222,19 @@ void fillHoles(const HoleFillInput& in, ImageView<float> disparity, ImageView<st
   scratch.rays.findHoles(disparity, state, threads);
   if (scratch.rays.count() == 0) return;
   scratch.rays.follow(in.search_radius_px, kernels, threads);
-  HoleFiller filler(in, disparity, state, scratch);
-  const auto forEachHole = [&](auto&& fill) {
+  HoleFiller filler(in, disparity, state, scratch, kernels, threads);
+  const auto all = [&](int count, int min_per_strip, auto&& fill) {
     std::atomic<bool> complete{true};
-    parallelStrips(threads, scratch.rays.count(), kMinHolesPerStrip, [&](int begin, int end) {
-      for (int hole = begin; hole < end; ++hole)
-        if (!fill(hole)) complete = false;
+    parallelStrips(threads, count, min_per_strip, [&](int begin, int end) {
+      for (int i = begin; i < end; ++i)
+        if (!fill(i)) complete = false;
     });
     return complete.load();
   };
-  if (forEachHole([&](int hole) { return filler.fill(hole); })) return;
+  if (all(filler.batches(), kMinBatchesPerStrip, [&](int batch) { return filler.fillBatch(batch); })) return;
   const ImageView<const float> coarse = in.coarse();
-  if (!coarse.empty() && forEachHole([&](int hole) { return filler.fillFromCoarse(hole, coarse); })) return;
+  const auto from_coarse = [&](int hole) { return filler.fillFromCoarse(hole, coarse); };
+  if (!coarse.empty() && all(scratch.rays.count(), kMinBatchesPerStrip * kHoleBatch, from_coarse)) return;
   fillDistant(disparity, state, in.fallback_disparity, threads);
 }
 

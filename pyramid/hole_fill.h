@@ -10,7 +10,7 @@
 
 namespace pomona {
 
-/// Everything has the size of the left image; sides are at most 65535.
+/// Everything has the size of the left image. Sides are at most 65535, stride times height is below 2^31.
 struct HoleFillInput {
   GuideView guide;                         ///< the left image
   ImageView<const float> right_disparity;  ///< the right view's map, d = x_left - x_right; NaN where unknown
@@ -23,6 +23,7 @@ struct HoleFillInput {
 /// What fillHoles() keeps from one call to the next.
 struct HoleFillScratch {
   HoleRays rays;
+  Image<std::uint32_t> colors;
   Buffer<std::uint32_t> color_weight, distance_weight;
 };
 
@@ -48,9 +49,9 @@ struct HoleFillScratch {
 /// smaller);
 ///   then `fallback_disparity`. State as by the first two rules.
 ///
-/// Weights are integers (2^28 times each exponential, at least 1), so that their sums are exact and the
-/// result depends on nothing but the input. The rays of all pixels are followed together, one step per row
-/// and ray: time grows with the number of pixels, not with the size of the holes.
+/// Weights are integers (the product of both exponentials in 1 / 65535, over 16, at least 1), so that their
+/// sums are exact and the result depends on nothing but the input. The rays of all pixels are followed
+/// together, one step per row and ray: time grows with the number of pixels, not with the size of the holes.
 void fillHoles(const HoleFillInput& in, ImageView<float> disparity, ImageView<std::uint8_t> state,
                HoleFillScratch& scratch, const PyramidKernels& kernels, int threads);
 

@@ -30,7 +30,9 @@ struct Scene {
     disparity.at(y, x) = kNan;
     state.at(y, x) = value(reason);
   }
-  HoleFillInput input() const { return {guide.guide(), right.view(), coarse.view(), radius_px, fallback}; }
+  /// The scene itself is what offers the coarse map, see HoleFillInput::coarse.
+  ImageView<const float> operator()() const { return coarse.view(); }
+  HoleFillInput input() const { return {guide.guide(), right.view(), *this, radius_px, fallback}; }
   void fill(const PyramidKernels& kernels = pyramidKernels(usableIsas().back()), int threads = 1) {
     HoleFillScratch scratch;
     fillHoles(input(), disparity.view(), state.view(), scratch, kernels, threads);
@@ -243,7 +245,6 @@ TEST(FillHoles, WithoutAPossibleCandidateTheRowsBackgroundWins) {
   s.dig(1, 6, PixelState::kOccluded);
   s.dig(1, 5, PixelState::kOccluded);
   s.dig(1, 4, PixelState::kOccluded);
-  s.right.fill([](int, int, int) { return -50.0f; });
   s.fill();
   EXPECT_EQ(s.disparity.at(1, 6), 5.0f);  // of 6 and 5, although 4 is near as well
 }
@@ -297,10 +298,11 @@ TEST(FillHoles, BeyondTheRadiusTheCoarseMapDecidesAndWithoutOneTheRow) {
     s.disparity.fill([](int, int, int) { return 9.0f; });
     for (int x = 10; x < 64; ++x) s.dig(0, x, PixelState::kOccluded);
     HoleFillInput in = s.input();
+    const auto no_map = [] { return ImageView<const float>{}; };
     if (has_coarse)
       s.coarse.fill([](int, int, int) { return 2.0f; });
     else
-      in.coarse = {};
+      in.coarse = no_map;
     HoleFillScratch scratch;
     fillHoles(in, s.disparity.view(), s.state.view(), scratch, pyramidKernels(Isa::kScalar), 2);
     EXPECT_EQ(s.disparity.at(0, 14), 9.0f);

@@ -1,6 +1,7 @@
 // Everything an instruction set's target file compiles: the bodies, and the table of them.
 #include "pyramid/kernels.h"
 // clang-format off: the bodies have no includes of their own
+#include "pyramid/kernels/candidates.inl"
 #include "pyramid/kernels/laplacian.inl"
 #include "pyramid/kernels/rays.inl"
 #include "pyramid/kernels/scale.inl"
@@ -21,6 +22,9 @@ constexpr PyramidKernels kTable = {
     .average = average,
     .blend = blend,
     .advanceRays = advanceRays,
+    .packColors = packColors,
+    .gatherCandidates = gatherCandidates,
+    .weightedQuantile = weightedQuantile,
 };
 
 }  // namespace

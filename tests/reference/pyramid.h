@@ -203,9 +203,10 @@ struct HoleFill {
   std::uint64_t weight(int y, int x, int v, int u, int steps, int dx, int dy) const {
     int difference = 0;
     for (int c = 0; c < channels; ++c) difference += std::abs(guide(y, x, c) - guide(v, u, c));
-    const auto integer = [](double w) { return std::max<std::uint64_t>(1, std::llround(w * (1 << 28))); };
-    return integer(std::exp(-difference / (12.0 * channels))) *
-           integer(std::exp(-steps * std::sqrt(dx * dx + dy * dy) / 30.0));
+    const auto integer = [](double w) { return static_cast<std::uint64_t>(std::llround(w * 65535)); };
+    return std::max<std::uint64_t>(1, integer(std::exp(-difference / (12.0 * channels))) *
+                                          integer(std::exp(-steps * std::sqrt(dx * dx + dy * dy) / 30.0)) /
+                                          16);
   }
   static float quantile(std::vector<std::pair<float, std::uint64_t>> c, std::uint64_t quarters) {
     std::sort(c.begin(), c.end());
