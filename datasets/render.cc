@@ -55,7 +55,9 @@ struct Solid {
     if (!(depth > kNearest_m)) return kNowhere;
     if (shape == Shape::kPlane) return depth;
     const Vec3d p = from_center + direction * depth;
-    return std::abs(p.dot(dual_u)) <= 1 && std::abs(p.dot(dual_v)) <= 1 ? depth : kNowhere;
+    const double a = p.dot(dual_u), b = p.dot(dual_v);
+    const bool inside = shape == Shape::kEllipse ? a * a + b * b <= 1 : std::abs(a) <= 1 && std::abs(b) <= 1;
+    return inside ? depth : kNowhere;
   }
 
   // Lambert's law with a light above and behind the cameras' left shoulder; on spheres only, for their
