@@ -24,7 +24,7 @@ enum class Shape {
 };
 
 /// Value noise between two colours, fixed to the surface: both views see the same paint. Three octaves; the
-/// coarsest has cells of `cell_m`, each further one half of that.
+/// coarsest has cells of `cell_m` (at least 1e-6), each further one half of that.
 struct Paint {
   cv::Vec3d first_bgr;  ///< 0..255
   cv::Vec3d second_bgr;

@@ -349,7 +349,7 @@ class BadOutputs(CommandTest):
         self.refuse("--opencv-png", "--opencv-png")
 
     def test_names_that_collide(self):
-        self.refuse("'same.png', which is another output", "--color", "same.png", "--error", "./same.png")
+        self.refuse("same.png', which is another output", "--color", "same.png", "--error", "./same.png")
         copy = os.path.join(self.folder, "left.png")
         shutil.copy(self.left, copy)
         self.refuse("which is an input", "--color", "left.png", left=copy)

@@ -111,6 +111,21 @@ TEST(Render, OcclusionIsTheStripBesideTheNearObject) {
   }
 }
 
+// Surfaces out of sight, behind the cameras, around them, and seen edge-on or at the horizon.
+TEST(Render, ExtremePlacesAreHarmless) {
+  SceneDescription scene = emptyScene(33, 31);
+  scene.surfaces.push_back({Shape::kSphere, {0, 1e6, 2}, {}, {}, 1, kPaint});
+  scene.surfaces.push_back({Shape::kSphere, {0, 0, -3}, {}, {}, 1, kPaint});
+  scene.surfaces.push_back({Shape::kSphere, {0, -1e-3, 1.1e-3}, {}, {}, 1e-3, kPaint});
+  scene.surfaces.push_back({Shape::kSphere, {0, 0, 0}, {}, {}, 1, kPaint});
+  scene.surfaces.push_back({Shape::kPlane, {0, 0, 2}, {0, 1, 0}, {0, 0, 1}, 0, kPaint});
+  scene.surfaces.push_back({Shape::kPlane, {0, 1, 0}, {1, 0, 0}, {0, 1e-12, 1}, 0, kPaint});
+  const RenderedPair pair = render(scene);
+  EXPECT_TRUE(std::isnan(pair.left.disparity.at<float>(15, 0)));  // the horizon
+  EXPECT_FLOAT_EQ(pair.left.disparity.at<float>(30, 0),
+                  10 * 15 / 100.0f);  // the ground, 1 m below: Z = 100 / 15
+}
+
 struct Lookup {
   bool inside;
   int x0;
@@ -250,6 +265,7 @@ TEST(Render, RefusesDescriptionsThatCannotBeRendered) {
   refused([](SceneDescription& s) { s.surfaces[0].v = {2, 0, 0}; });
   refused([](SceneDescription& s) { s.surfaces[0].shape = Shape::kSphere; });
   refused([](SceneDescription& s) { s.surfaces[0].paint.cell_m = 0; });
+  refused([](SceneDescription& s) { s.surfaces[0].center[0] = HUGE_VAL; });
   EXPECT_THROW(namedScene("forest", 1, 64, 48), std::invalid_argument);
   EXPECT_THROW(namedScene("boxes", 1, 8, 48), std::invalid_argument);
   EXPECT_THROW(namedScene("boxes", 1, 64, 9000), std::invalid_argument);

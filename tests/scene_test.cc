@@ -1,6 +1,7 @@
 #include "datasets/scene.h"
 
 #include <cmath>
+#include <cstdlib>
 
 #include "datasets/image_file.h"
 #include "datasets/named_scenes.h"
@@ -60,6 +61,22 @@ TEST_F(SceneFolder, RefusesWhatDoesNotFitTogether) {
   expectContains(reading(), "im1.png: is 32x20");
   fs::remove(folder_ / "im1.png");
   expectContains(reading(), "im1.png: cannot be read");
+}
+
+// The real thing, where it is at hand.
+TEST(Middlebury, EverySceneReads) {
+  const char* root = std::getenv("POMONA_DATASETS");
+  if (!root) GTEST_SKIP() << "set POMONA_DATASETS to a folder with middlebury/<scene>/";
+  for (const auto& entry : fs::directory_iterator(fs::path(root) / "middlebury")) {
+    const Scene scene = readScene(entry.path().string());
+    EXPECT_EQ(scene.left.type(), scene.right.type()) << entry.path();
+    EXPECT_EQ(scene.ground_truth.size(), scene.left.size()) << entry.path();
+    double low = 0, high = 0;
+    cv::minMaxLoc(scene.ground_truth, &low, &high, nullptr, nullptr,
+                  scene.ground_truth == scene.ground_truth);
+    EXPECT_GE(low, 0) << entry.path();
+    EXPECT_GT(high, 5) << entry.path();
+  }
 }
 
 }  // namespace
