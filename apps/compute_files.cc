@@ -91,7 +91,10 @@ const std::vector<OutputKind>& outputKinds() {
 
 bool sameFile(const std::string& a, const std::string& b) {
   std::error_code error;
-  return fs::equivalent(a, b, error) || fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
+  const auto resolved = [&](const std::string& path) {
+    return fs::weakly_canonical(fs::absolute(path), error);
+  };
+  return fs::equivalent(a, b, error) || resolved(a) == resolved(b);
 }
 
 void requireExtension(const OutputKind& kind, const std::string& path) {

@@ -37,17 +37,26 @@ class Temporary {
   Temporary& operator=(const Temporary&) = delete;
   ~Temporary() {
     if (!committed_) ::unlink(name_.c_str());
+    if (replaces_) ::unlink(replacedName().c_str());
   }
 
   void commit() {
+    replaces_ = ::link(target_.c_str(), replacedName().c_str()) == 0;
     if (std::rename(name_.c_str(), target_.c_str()) != 0) failToWrite(shown_path_, std::strerror(errno));
     committed_ = true;
   }
   void revert() {
-    if (committed_) ::unlink(target_.c_str());
+    if (!committed_) return;
+    if (replaces_)
+      std::rename(replacedName().c_str(), target_.c_str());
+    else
+      ::unlink(target_.c_str());
   }
 
  private:
+  // A second name for the file that the target replaces, until all is well.
+  std::string replacedName() const { return name_.string() + ".old"; }
+
   void create() {
     static std::atomic<unsigned> counter{0};
     do {
@@ -80,6 +89,7 @@ class Temporary {
   fs::path name_;
   int descriptor_ = -1;
   bool committed_ = false;
+  bool replaces_ = false;
 };
 
 }  // namespace

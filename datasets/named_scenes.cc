@@ -20,7 +20,7 @@ struct Colors {
 };
 
 constexpr double kFine_px = 8, kMiddle_px = 12,
-                 kCoarse_px = 24;  // coarsest cells of the paint, as seen in the image
+                 kCoarse_px = 16;  // coarsest cells of the paint, as seen in the image
 
 const Colors kMeadow{{30, 70, 40}, {90, 190, 140}};
 const Colors kHedge{{25, 45, 20}, {80, 130, 70}};
@@ -38,13 +38,14 @@ struct Place {
   double x, y, share;
 };
 struct Panel {
+  Shape shape;  // kParallelogram or kEllipse
   Place place;
   double half_width, half_height;
   double turn, tilt, roll;  // dZ/dX and dZ/dY of the surface, dY/dX of its lower edge
   Colors colors;
 };
 struct Box {
-  Place place;
+  Place place;  // of the middle of its lower face
   double half_width, half_height, half_length;
   double turn;
   Colors colors;
@@ -82,7 +83,7 @@ class SceneBuilder {
     const double width_m = widthAt(p.place);
     const Vec3d u = unit({1, p.roll, 0}) * (p.half_width * width_m);
     const Vec3d v = unit({-p.roll, 1, 0}) * (p.half_height * width_m);
-    add({Shape::kParallelogram, at(p.place), u + Vec3d(0, 0, p.turn * u[0] + p.tilt * u[1]),
+    add({p.shape, at(p.place), u + Vec3d(0, 0, p.turn * u[0] + p.tilt * u[1]),
          v + Vec3d(0, 0, p.turn * v[0] + p.tilt * v[1]), 0, paint(p.colors, kMiddle_px, p.place)});
   }
   void ball(const Ball& b) {
@@ -99,7 +100,7 @@ class SceneBuilder {
     const Vec3d u = unit({1, 0, b.turn}) * (b.half_width * width_m);
     const Vec3d v{0, b.half_height * width_m, 0};
     const Vec3d w = unit({-b.turn, 0, 1}) * (b.half_length * width_m);
-    const Vec3d center = at(b.place);
+    const Vec3d center = at(b.place) - v;  // Y points down
     const Paint p = paint(b.colors, kMiddle_px, b.place);
     for (const double side : {-1.0, 1.0}) {
       add({Shape::kParallelogram, center + side * w, u, v, 0, p});
@@ -130,7 +131,8 @@ class SceneBuilder {
 void addPlanes(SceneBuilder& b) {
   b.plane({0.5, 0.5, 0.25}, {1, 0.5, 0.3}, {0.5, 1, 0.4}, kWall, kCoarse_px);
   for (const double share : {0.42, 0.56, 0.68, 0.78})
-    b.panel({{b.between(0.15, 0.85), b.between(0.2, 0.8), share},
+    b.panel({Shape::kParallelogram,
+             {b.between(0.15, 0.85), b.between(0.2, 0.8), share},
              b.between(0.08, 0.16),
              b.between(0.06, 0.14),
              b.between(-0.6, 0.6),
@@ -141,10 +143,11 @@ void addPlanes(SceneBuilder& b) {
 
 void addBoxes(SceneBuilder& b) {
   b.plane({0.5, 0.5, 0.2}, {1, 0.5, 0.23}, {0.5, 0, 0.2}, kWall, kCoarse_px);
-  b.plane({0.5, 0.75, 0.3}, {1, 0.75, 0.3}, {0.5, 1, 0.75}, kFloor, kMiddle_px);
+  b.plane({0.5, 0.6, 0.3}, {1, 0.6, 0.3}, {0.5, 1, 0.7}, kFloor, kMiddle_px);
   double x = 0.12;
-  for (const double share : {0.33, 0.55, 0.4, 0.62, 0.36}) {
-    b.box({{x, b.between(0.45, 0.7), share},
+  for (const double share : {0.38, 0.55, 0.42, 0.62, 0.46}) {
+    const double floor_y = 0.6 + (share - 0.3);
+    b.box({{x, floor_y, share},
            b.between(0.05, 0.09),
            b.between(0.06, 0.12),
            b.between(0.03, 0.06),
@@ -164,26 +167,28 @@ void addSpheres(SceneBuilder& b) {
 
 // One tree: a trunk, thin branches, leaves that turn every way, and fruit among them.
 void addTree(SceneBuilder& b, double x, double share) {
-  b.panel({{x, 0.6, share}, 0.018, 0.35, 0.1, 0, b.between(-0.06, 0.06), kBark});
+  b.panel({Shape::kParallelogram, {x, 0.62, share}, 0.014, 0.3, 0.1, 0, b.between(-0.06, 0.06), kBark});
   for (int i = 0; i < 7; ++i)
-    b.panel({{x + b.between(-0.1, 0.1), b.between(0.12, 0.55), share * b.between(0.95, 1.1)},
-             0.1,
-             0.005,
+    b.panel({Shape::kParallelogram,
+             {x + b.between(-0.07, 0.07), b.between(0.15, 0.5), share * b.between(0.95, 1.1)},
+             0.08,
+             0.004,
              b.between(-0.3, 0.3),
              0,
-             b.between(-0.8, 0.8),
+             b.between(-0.9, 0.9),
              kBark});
-  for (int i = 0; i < 45; ++i)
-    b.panel({{x + b.between(-0.21, 0.21), b.between(0.02, 0.6), share * b.between(0.8, 1.25)},
-             b.between(0.018, 0.035),
-             b.between(0.008, 0.016),
+  for (int i = 0; i < 90; ++i)
+    b.panel({Shape::kEllipse,
+             {x + b.between(-0.15, 0.15), b.between(0.04, 0.56), share * b.between(0.8, 1.25)},
+             b.between(0.014, 0.024),
+             b.between(0.006, 0.01),
              b.between(-1, 1),
              b.between(-1, 1),
              b.between(-1.5, 1.5),
              kLeaf});
   for (int i = 0; i < 8; ++i)
-    b.ball({{x + b.between(-0.18, 0.18), b.between(0.12, 0.6), share * b.between(1.1, 1.4)},
-            b.between(0.022, 0.034),
+    b.ball({{x + b.between(-0.13, 0.13), b.between(0.1, 0.54), share * b.between(1.1, 1.35)},
+            b.between(0.018, 0.026),
             i % 4 == 3 ? kPear : kApple});
 }
 
@@ -191,7 +196,7 @@ void addTree(SceneBuilder& b, double x, double share) {
 void addOrchard(SceneBuilder& b) {
   b.plane({0.5, 0.5, 0.16}, {1, 0.5, 0.2}, {0.5, 0, 0.16}, kHedge, kCoarse_px);
   b.plane({0.5, 0.62, 0.22}, {1, 0.62, 0.22}, {0.5, 1, 0.6}, kMeadow, kMiddle_px);
-  for (const double x : {0.22, 0.74}) addTree(b, x, b.between(0.5, 0.6));
+  for (const double x : {0.17, 0.49, 0.83}) addTree(b, x, b.between(0.45, 0.65));
 }
 
 struct NamedScene {

@@ -16,7 +16,8 @@ namespace {
 using cv::Vec3d;
 
 constexpr double kNowhere = std::numeric_limits<double>::infinity();
-constexpr double kNearest_m = 1e-6;
+constexpr double kNearest_m = 1e-6, kFarthest_m = 1e6;  // outside, a ray meets nothing
+constexpr double kFinestCell_m = 1e-6;
 
 // A surface with everything that does not depend on the ray worked out.
 struct Solid {
@@ -48,14 +49,16 @@ struct Solid {
       const double b = direction.dot(from_center);
       const double discriminant = b * b - a * (from_center.dot(from_center) - radius_m * radius_m);
       const double depth = discriminant >= 0 ? (-b - std::sqrt(discriminant)) / a : kNowhere;
-      return depth > kNearest_m ? depth : kNowhere;
+      return depth > kNearest_m && depth < kFarthest_m ? depth : kNowhere;
     }
     const double along_normal = normal.dot(direction);
     const double depth = along_normal != 0 ? -normal.dot(from_center) / along_normal : kNowhere;
-    if (!(depth > kNearest_m)) return kNowhere;
+    if (!(depth > kNearest_m && depth < kFarthest_m)) return kNowhere;
     if (shape == Shape::kPlane) return depth;
     const Vec3d p = from_center + direction * depth;
-    return std::abs(p.dot(dual_u)) <= 1 && std::abs(p.dot(dual_v)) <= 1 ? depth : kNowhere;
+    const double a = p.dot(dual_u), b = p.dot(dual_v);
+    const bool inside = shape == Shape::kEllipse ? a * a + b * b <= 1 : std::abs(a) <= 1 && std::abs(b) <= 1;
+    return inside ? depth : kNowhere;
   }
 
   // Lambert's law with a light above and behind the cameras' left shoulder; on spheres only, for their
@@ -153,10 +156,11 @@ class Renderer {
     if (s.shape != Shape::kPlane && near > kNearest_m) {
       const double highest = solid.center[1] - radius, lowest = solid.center[1] + radius;
       const auto row = [&](double height, double depth) { return cy_ + scene_.focal_px * height / depth; };
-      top = std::max(top, std::floor(std::min(row(highest, near), row(highest, far))) - 1);
-      bottom = std::min(bottom, std::ceil(std::max(row(lowest, near), row(lowest, far))) + 1);
+      top = std::floor(std::min(row(highest, near), row(highest, far))) - 1;
+      bottom = std::ceil(std::max(row(lowest, near), row(lowest, far))) + 1;
     }
-    for (int y = static_cast<int>(top); y <= bottom; ++y) solids_of_row_[y].push_back(&solid);
+    const auto clamped = [&](double y) { return static_cast<int>(std::clamp<double>(y, 0, scene_.height)); };
+    for (int y = clamped(top); y < clamped(bottom + 1); ++y) solids_of_row_[y].push_back(&solid);
   }
 
   Hit firstHit(int row, const Vec3d& from, const Vec3d& along) const {
@@ -231,10 +235,12 @@ void validate(const SceneDescription& scene) {
           "bits is " + std::to_string(scene.bits) + "; allowed: 8 or 16");
   for (const Surface& s : scene.surfaces) {
     const Vec3d normal = s.u.cross(s.v);
+    const double squares = s.center.dot(s.center) + s.u.dot(s.u) + s.v.dot(s.v) + s.radius_m * s.radius_m;
+    require(std::isfinite(squares), "a surface has a coordinate that is not finite");
     require(s.shape == Shape::kSphere ? s.radius_m > 0 : normal.dot(normal) > 0,
             "a surface without extent: a sphere needs a radius_m > 0, other shapes u and v that are not "
             "parallel");
-    require(s.paint.cell_m > 0, "paint.cell_m must be positive");
+    require(s.paint.cell_m >= kFinestCell_m, "paint.cell_m must be at least 1e-6 m");
   }
 }
 

@@ -1,4 +1,4 @@
-// A small deterministic ray caster: textured planes, parallelograms and spheres seen by a rectified stereo
+// A small deterministic ray caster: textured planes, panels, discs and spheres seen by a rectified stereo
 // pair, with exact disparities and visibility. For tests with known answers, and for a picture when no real
 // pair is at hand.
 //
@@ -19,11 +19,12 @@ namespace pomona {
 enum class Shape {
   kPlane,          ///< unbounded, through `center`, spanned by `u` and `v`
   kParallelogram,  ///< center + a u + b v with |a|, |b| <= 1
+  kEllipse,        ///< center + a u + b v with a^2 + b^2 <= 1
   kSphere,         ///< around `center`
 };
 
 /// Value noise between two colours, fixed to the surface: both views see the same paint. Three octaves; the
-/// coarsest has cells of `cell_m`, each further one half of that.
+/// coarsest has cells of `cell_m` (at least 1e-6), each further one half of that.
 struct Paint {
   cv::Vec3d first_bgr;  ///< 0..255
   cv::Vec3d second_bgr;
@@ -33,7 +34,7 @@ struct Paint {
 struct Surface {
   Shape shape = Shape::kPlane;
   cv::Vec3d center;
-  cv::Vec3d u, v;       ///< kPlane, kParallelogram: must not be parallel
+  cv::Vec3d u, v;       ///< all but kSphere: must not be parallel
   double radius_m = 0;  ///< kSphere
   Paint paint;
 };

@@ -1,0 +1,83 @@
+#include "datasets/scene.h"
+
+#include <cmath>
+#include <cstdlib>
+
+#include "datasets/image_file.h"
+#include "datasets/named_scenes.h"
+#include "datasets/pfm.h"
+#include "file_support.h"
+
+namespace pomona {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SceneFolder : public testing::Test {
+ protected:
+  void SetUp() override {
+    pair_ = render(namedScene("planes", 3, 32, 24, 8));
+    put(folder_ / "im0.png", encodeImage(pair_.left.image));
+    put(folder_ / "im1.png", encodeImage(pair_.right.image));
+  }
+  std::string reading() {
+    return messageOf([&] { readScene(folder_ / "."); });
+  }
+  TemporaryFolder folder_;
+  RenderedPair pair_;
+};
+
+TEST_F(SceneFolder, ThePairAloneIsEnough) {
+  const Scene scene = readScene(folder_ / ".");
+  EXPECT_EQ(cv::norm(scene.left, pair_.left.image, cv::NORM_INF), 0);
+  EXPECT_EQ(cv::norm(scene.right, pair_.right.image, cv::NORM_INF), 0);
+  EXPECT_TRUE(scene.ground_truth.empty());
+  EXPECT_TRUE(scene.nonoccluded.empty());
+  EXPECT_FALSE(scene.calibration);
+}
+
+TEST_F(SceneFolder, ReadsEverythingThatIsThere) {
+  pair_.left.disparity.at<float>(0, 0) = NAN;
+  writePfm(folder_ / "disp0GT.pfm", pair_.left.disparity);
+  put(folder_ / "mask0nocc.png", encodeImage(pair_.left.mask));
+  put(folder_ / "calib.txt", encodeMiddleburyCalibration(pair_.calibration));
+  const Scene scene = readScene(folder_ / ".");
+  EXPECT_TRUE(std::isnan(scene.ground_truth.at<float>(0, 0)));
+  EXPECT_EQ(scene.ground_truth.at<float>(5, 5), pair_.left.disparity.at<float>(5, 5));
+  EXPECT_EQ(cv::norm(scene.nonoccluded, pair_.left.mask, cv::NORM_INF), 0);
+  EXPECT_EQ(scene.calibration->stereo.num_disparities, 8);
+}
+
+TEST_F(SceneFolder, RefusesWhatDoesNotFitTogether) {
+  writePfm(folder_ / "disp0GT.pfm", cv::Mat(24, 31, CV_32F, cv::Scalar(1)));
+  expectContains(reading(), "disp0GT.pfm: is 31x24; the left image is 32x24");
+  fs::remove(folder_ / "disp0GT.pfm");
+  put(folder_ / "mask0nocc.png", encodeImage(cv::Mat(24, 32, CV_8UC3, cv::Scalar(1))));
+  expectContains(reading(), "mask0nocc.png: has 3 channels");
+  fs::remove(folder_ / "mask0nocc.png");
+  put(folder_ / "im1.png", encodeImage(cv::Mat(24, 32, CV_8UC1, cv::Scalar(1))));
+  expectContains(reading(), "im1.png: has 1 channel");
+  put(folder_ / "im1.png", encodeImage(cv::Mat(20, 32, CV_8UC3, cv::Scalar(1))));
+  expectContains(reading(), "im1.png: is 32x20");
+  fs::remove(folder_ / "im1.png");
+  expectContains(reading(), "im1.png: cannot be read");
+}
+
+// The real thing, where it is at hand.
+TEST(Middlebury, EverySceneReads) {
+  const char* root = std::getenv("POMONA_DATASETS");
+  if (!root) GTEST_SKIP() << "set POMONA_DATASETS to a folder with middlebury/<scene>/";
+  for (const auto& entry : fs::directory_iterator(fs::path(root) / "middlebury")) {
+    const Scene scene = readScene(entry.path().string());
+    EXPECT_EQ(scene.left.type(), scene.right.type()) << entry.path();
+    EXPECT_EQ(scene.ground_truth.size(), scene.left.size()) << entry.path();
+    double low = 0, high = 0;
+    cv::minMaxLoc(scene.ground_truth, &low, &high, nullptr, nullptr,
+                  scene.ground_truth == scene.ground_truth);
+    EXPECT_GE(low, 0) << entry.path();
+    EXPECT_GT(high, 5) << entry.path();
+  }
+}
+
+}  // namespace
+}  // namespace pomona
