@@ -34,7 +34,7 @@ double DisparityErrors::wrongPercent(std::size_t threshold) const {
 double DisparityErrors::coveragePercent() const {
   return 100 * ratio(known - holes, known);
 }
-double DisparityErrors::averageError_px() const {
+double DisparityErrors::averageErrorPx() const {
   return ratio(error_sum_px, known - holes);
 }
 

@@ -26,7 +26,7 @@ struct DisparityErrors {
   /// Pixels with a disparity, of all known ones.
   double coveragePercent() const;
   /// Mean |d - truth| over pixels with a disparity.
-  double averageError_px() const;
+  double averageErrorPx() const;
 };
 
 /// Compares `disparity` with `truth` (both CV_32F, of one size; a value that is not finite is unknown).

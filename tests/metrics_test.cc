@@ -31,7 +31,7 @@ TEST(CompareWithTruth, CountsByHand) {
   EXPECT_DOUBLE_EQ(e.badPercent(1), 100.0 * 4 / 7);
   EXPECT_DOUBLE_EQ(e.wrongPercent(2), 100.0 * 1 / 5);
   EXPECT_DOUBLE_EQ(e.coveragePercent(), 100.0 * 5 / 7);
-  EXPECT_DOUBLE_EQ(e.averageError_px(), 7.375 / 5);
+  EXPECT_DOUBLE_EQ(e.averageErrorPx(), 7.375 / 5);
 }
 
 TEST(CompareWithTruth, AnErrorOfExactlyTheThresholdIsNotBad) {
@@ -55,7 +55,7 @@ TEST(CompareWithTruth, NothingKnownGivesNan) {
   const DisparityErrors only_holes = compareWithTruth(row({kNan}), row({1.f}));
   EXPECT_EQ(only_holes.badPercent(3), 100.0);
   EXPECT_TRUE(std::isnan(only_holes.wrongPercent(3)));
-  EXPECT_TRUE(std::isnan(only_holes.averageError_px()));
+  EXPECT_TRUE(std::isnan(only_holes.averageErrorPx()));
 }
 
 TEST(CompareWithTruth, RegionOfALargerImageGivesTheSame) {
