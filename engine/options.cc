@@ -99,7 +99,7 @@ Options Options::preset(std::string_view name) {
   if (name == "balanced") return o;
   if (name == "fast") {
     o.cost.cost = MatchingCost::kCensus5x5;
-    o.aggregation = {8, 4, 40, 40, PenaltyAdaptation::kConstant};
+    o.aggregation = {8, 5, 40, 10, PenaltyAdaptation::kSoftIntensity};
     return o;
   }
   if (name == "quality") {

@@ -1,6 +1,7 @@
 #include "sgm/aggregation.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -30,7 +31,8 @@ int adaptedPenalty(const AggregationOptions& o, int step) {
 }  // namespace
 
 void WinnerMaps::resize(int width, int height) {
-  for (Image<std::uint16_t>* map : {&index, &best, &below, &above, &second, &right_index})
+  for (Image<std::uint16_t>* map :
+       {&index, &best, &below, &above, &second, &right_index, &right_best, &right_below, &right_above})
     map->resize(width, height);
 }
 
@@ -107,8 +109,12 @@ void Aggregator::firstPass(const Pass& pass, int which) {
 void Aggregator::lastPass(const Pass& pass, int which, WinnerMaps& out) {
   Sweep& s = sweep_[which];
   const DisparityRange& range = pass.cost.range();
+  const int recent_pixels =
+      static_cast<int>(std::bit_ceil(static_cast<unsigned>(range.disparities + kWinnerDelay + 2)));
+  s.recent_sums.resize(static_cast<std::size_t>(recent_pixels) * range.lanes());
   const auto complete = [&](int y, int from_row) {
-    std::fill_n(out.right_index.row(y), pass.cost.width(), kNoIndex);
+    for (Image<std::uint16_t>* map : {&out.right_index, &out.right_best, &out.right_below, &out.right_above})
+      std::fill_n(map->row(y), pass.cost.width(), kNoIndex);
     pass.kernels.aggregateLast(prepareRow(pass, s, y, from_row, 1), {.disparities = range.disparities,
                                                                      .min_disparity = range.min_disparity,
                                                                      .position = position_.data(),
@@ -119,7 +125,12 @@ void Aggregator::lastPass(const Pass& pass, int which, WinnerMaps& out) {
                                                                      .below = out.below.row(y),
                                                                      .above = out.above.row(y),
                                                                      .second = out.second.row(y),
-                                                                     .right_index = out.right_index.row(y)});
+                                                                     .right_index = out.right_index.row(y),
+                                                                     .right_best = out.right_best.row(y),
+                                                                     .right_below = out.right_below.row(y),
+                                                                     .right_above = out.right_above.row(y),
+                                                                     .recent = s.recent_sums.data(),
+                                                                     .recent_mask = recent_pixels - 1});
   };
   if (which == 0)
     for (int y = pass.middle(); y < pass.cost.height(); ++y) complete(y, -1);

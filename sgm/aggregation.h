@@ -13,7 +13,7 @@ namespace pomona {
 
 /// What winner-take-all leaves for every pixel; WinnerRow names the fields. All of the image's size.
 struct WinnerMaps {
-  Image<std::uint16_t> index, best, below, above, second, right_index;
+  Image<std::uint16_t> index, best, below, above, second, right_index, right_best, right_below, right_above;
 
   void resize(int width, int height);
 };
@@ -33,6 +33,7 @@ class Aggregator {
     std::array<Buffer<std::uint8_t>, 3> path;
     Buffer<std::uint32_t> minima;
     Buffer<std::uint8_t> cost;
+    Buffer<std::uint16_t> recent_sums;
     std::array<Buffer<std::uint32_t>, 4> p2;
   };
   struct Pass;

@@ -71,8 +71,15 @@ struct WinnerRow {
   std::uint16_t* above;        ///< out: the sum one disparity above (the pixel's own at the last index)
   std::uint16_t* second;       ///< out: the lowest sum more than one disparity away; 0xFFFF if there is none
   std::uint16_t* right_index;  ///< out, per right pixel; must come in as kNoIndex
+  std::uint16_t* right_best;   ///< out: its sum
+  std::uint16_t*
+      right_below;  ///< out: the sum one disparity below, seen from the same right pixel; 0xFFFF, like
+  std::uint16_t* right_above;  ///< right_above, unless both lie in the image and the range
+  std::uint16_t* recent;       ///< scratch: the sums of the last recent_mask + 1 pixels
+  int recent_mask;             ///< a power of two less one; at least disparities + kWinnerDelay + 2 pixels
 };
 constexpr std::uint16_t kNoIndex = 0xFFFF;
+constexpr int kWinnerDelay = 4;
 
 struct SgmKernels {
   int vector_bytes;  ///< kBytes

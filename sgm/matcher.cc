@@ -18,47 +18,58 @@ float equiangularOffset(int below, int best, int above) {
   return 0.5f * static_cast<float>(below - above) / static_cast<float>(std::max(below, above) - best);
 }
 
+/// One row of one view: what winner-take-all found, and how far the disparity lies from whole pixels.
+struct WinnerView {
+  const std::uint16_t *index, *best, *below, *above;
+};
+
 template <typename Offset>
-void refineRow(const WinnerMaps& w, int y, int width, const MatchOptions& o, float* disparity,
-               Offset offset) {
-  const std::uint16_t *index = w.index.row(y), *best = w.best.row(y), *below = w.below.row(y),
-                      *above = w.above.row(y);
+void refineRow(const WinnerView& w, int width, const MatchOptions& o, float* disparity, Offset offset) {
   for (int x = 0; x < width; ++x) {
-    const bool inner = index[x] > 0 && index[x] < o.disparities - 1;
-    const float shift = inner ? offset(below[x], best[x], above[x]) : 0.0f;
-    disparity[x] = static_cast<float>(o.min_disparity + index[x]) + shift;
+    const bool inner = w.index[x] > 0 && w.index[x] < o.disparities - 1;
+    const float shift = inner ? offset(w.below[x], w.best[x], w.above[x]) : 0.0f;
+    disparity[x] = static_cast<float>(o.min_disparity + w.index[x]) + shift;
+  }
+}
+
+void refineRow(const WinnerView& w, int width, const MatchOptions& o, float* disparity) {
+  switch (o.winner.subpixel) {
+    case SubpixelMethod::kNone:
+      return refineRow(w, width, o, disparity, [](int, int, int) { return 0.0f; });
+    case SubpixelMethod::kParabola:
+      return refineRow(w, width, o, disparity, parabolaOffset);
+    case SubpixelMethod::kEquiangular:
+      return refineRow(w, width, o, disparity, equiangularOffset);
   }
 }
 
 void finishRow(const WinnerMaps& w, int y, const MatchOptions& o, MatchMaps& out) {
   const int width = w.index.width();
-  float* disparity = out.disparity.row(y);
-  switch (o.winner.subpixel) {
-    case SubpixelMethod::kNone:
-      refineRow(w, y, width, o, disparity, [](int, int, int) { return 0.0f; });
-      break;
-    case SubpixelMethod::kParabola:
-      refineRow(w, y, width, o, disparity, parabolaOffset);
-      break;
-    case SubpixelMethod::kEquiangular:
-      refineRow(w, y, width, o, disparity, equiangularOffset);
-      break;
-  }
+  refineRow({w.index.row(y), w.best.row(y), w.below.row(y), w.above.row(y)}, width, o, out.disparity.row(y));
+  float* right_disparity = out.right_disparity.row(y);
+  const std::uint16_t* right_index = w.right_index.row(y);
+  refineRow({right_index, w.right_best.row(y), w.right_below.row(y), w.right_above.row(y)}, width, o,
+            right_disparity);
 
   const float per_path = 1.0f / static_cast<float>(o.aggregation.paths);
   const int keep_percent = 100 - o.winner.uniqueness_percent;
-  const std::uint16_t *best = w.best.row(y), *second = w.second.row(y), *right = w.right_index.row(y);
+  const std::uint16_t *best = w.best.row(y), *second = w.second.row(y);
   for (int x = 0; x < width; ++x) {
-    const bool unique = 100 * best[x] <= keep_percent * second[x];
+    const bool unique = o.winner.uniqueness_percent == 0 || 100 * best[x] <= keep_percent * second[x];
     out.margin.row(y)[x] = static_cast<float>(std::max(0, second[x] - best[x])) * per_path;
-    out.state.row(y)[x] = static_cast<std::uint8_t>(
-        unique || o.winner.uniqueness_percent == 0 ? PixelState::kMeasured : PixelState::kAmbiguous);
-    out.right_disparity.row(y)[x] = right[x] == kNoIndex ? std::numeric_limits<float>::quiet_NaN()
-                                                         : static_cast<float>(o.min_disparity + right[x]);
+    out.state.row(y)[x] = static_cast<std::uint8_t>(unique ? PixelState::kMeasured : PixelState::kAmbiguous);
+    if (right_index[x] == kNoIndex) right_disparity[x] = std::numeric_limits<float>::quiet_NaN();
   }
 }
 
 }  // namespace
+
+void MatchMaps::resize(int width, int height) {
+  disparity.resize(width, height);
+  right_disparity.resize(width, height);
+  margin.resize(width, height);
+  state.resize(width, height);
+}
 
 void SgmMatcher::match(const GrayPair& pair, const MatchOptions& options, std::span<const std::uint8_t> table,
                        const SgmKernels& kernels, MatchMaps& out, int threads) {
@@ -81,10 +92,7 @@ void SgmMatcher::match(const GrayPair& pair, const MatchOptions& options, std::s
   }
   aggregator_.run(cost_, pair.left, options.aggregation, kernels, winners_, threads);
 
-  out.disparity.resize(width, height);
-  out.right_disparity.resize(width, height);
-  out.margin.resize(width, height);
-  out.state.resize(width, height);
+  out.resize(width, height);
   parallelStrips(threads, height, 16, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) finishRow(winners_, y, options, out);
   });

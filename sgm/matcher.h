@@ -32,9 +32,11 @@ struct MatchOptions {
 /// Unvalidated disparities, pixels, of the image's size.
 struct MatchMaps {
   Image<float> disparity;        ///< of the left view; never NaN
-  Image<float> right_disparity;  ///< of the right view, whole pixels; NaN where no left pixel maps to
+  Image<float> right_disparity;  ///< of the right view; NaN where no left pixel maps to
   Image<float> margin;           ///< (second-best - best) sum per path: how clearly the winner won, >= 0
   Image<std::uint8_t> state;     ///< PixelState: measured, or ambiguous where uniqueness fails
+
+  void resize(int width, int height);
 };
 
 class SgmMatcher {

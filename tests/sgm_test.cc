@@ -89,10 +89,15 @@ void expectEqual(const WinnerMaps& got, const reference::Match& want, const std:
       const int i = y * width + x;
       const auto value = [&](const Image<std::uint16_t>& map) { return static_cast<int>(map.row(y)[x]); };
       const auto orNone = [](int v) { return v < 0 ? 0xFFFF : v; };
-      ASSERT_EQ(std::make_tuple(value(got.index), value(got.best), value(got.below), value(got.above),
-                                value(got.second), value(got.right_index)),
-                std::make_tuple(want.index[i], want.best[i], want.below[i], want.above[i],
-                                orNone(want.second[i]), orNone(want.right_index[i])))
+      ASSERT_EQ(
+          std::make_tuple(value(got.index), value(got.best), value(got.below), value(got.above),
+                          value(got.second)),
+          std::make_tuple(want.index[i], want.best[i], want.below[i], want.above[i], orNone(want.second[i])))
+          << what << " at x " << x << " y " << y;
+      ASSERT_EQ(std::make_tuple(value(got.right_index), value(got.right_best), value(got.right_below),
+                                value(got.right_above)),
+                std::make_tuple(orNone(want.right_index[i]), orNone(want.right_best[i]),
+                                orNone(want.right_below[i]), orNone(want.right_above[i])))
           << what << " at x " << x << " y " << y;
     }
 }
@@ -224,6 +229,12 @@ TEST(Sgm, MatcherRefinesAndMarksAmbiguousPixels) {
         EXPECT_EQ(maps.state.row(y)[x] == static_cast<std::uint8_t>(PixelState::kMeasured), unique);
         EXPECT_NEAR(maps.margin.row(y)[x], (want.second[i] - best) / 8.0, 1e-4);
         ambiguous += !unique;
+        if (want.right_index[i] < 0) {
+          EXPECT_TRUE(std::isnan(maps.right_disparity.row(y)[x]));
+        } else {
+          EXPECT_NEAR(maps.right_disparity.row(y)[x], want.right_index[i],
+                      method == SubpixelMethod::kNone || want.right_below[i] < 0 ? 0 : 0.5);
+        }
       }
     EXPECT_GT(ambiguous, 0);
     EXPECT_LT(ambiguous, 60 * 16);

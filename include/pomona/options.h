@@ -28,8 +28,8 @@ enum class PenaltyAdaptation {
 /// Path costs live in 8 bits, so the largest cost + p1 + p2 must not exceed 255.
 struct AggregationOptions {
   int paths = 8;    ///< 4 (horizontal and vertical) or 8 (and diagonal)
-  int p1 = 10;      ///< penalty for a disparity step of one; 1 <= p1 <= p2
-  int p2 = 60;      ///< penalty for a larger step
+  int p1 = 14;      ///< penalty for a disparity step of one; 1 <= p1 <= p2
+  int p2 = 63;      ///< penalty for a larger step
   int p2_min = 20;  ///< lower bound of the adapted penalty (kSoftIntensity); p1 <= p2_min <= p2
   PenaltyAdaptation adaptation = PenaltyAdaptation::kSoftIntensity;
 };

@@ -33,7 +33,7 @@ constexpr bool isMissing(PixelState s) {
 constexpr bool isFilled(PixelState s) {
   return !isMeasured(s) && !isMissing(s);
 }
-/// A short lower-case word, e.g. "occluded"; "unknown" for a value outside the enumeration.
+/// A few lower-case words, e.g. "occluded"; "unknown" for a value outside the enumeration.
 std::string_view name(PixelState state);
 
 }  // namespace pomona

@@ -42,9 +42,8 @@ std::vector<std::uint64_t> census(ImageView<const T> image, MatchingCost cost) {
   return codes;
 }
 
-struct Match {
-  std::vector<int> index, best, below, above, second,
-      right_index;  // second, right_index: -1 if there is none
+struct Match {  // -1: there is none
+  std::vector<int> index, best, below, above, second, right_index, right_best, right_below, right_above;
 };
 
 /// `cost(y, x, d)`: matching cost of left (x, y) at disparity index d. `step(y, x, y2, x2)`: P2 between
@@ -117,6 +116,11 @@ inline Match match(const Problem& p) {
         if (right < 0 || s(y, left_x, d) < s(y, x + p.min_disparity + right, right)) right = d;
       }
       m.right_index.push_back(right);
+      const int from = x + p.min_disparity + right;
+      const bool inner = right > 0 && right + 1 < p.disparities && from > 0 && from + 1 < p.width;
+      m.right_best.push_back(right < 0 ? -1 : s(y, from, right));
+      m.right_below.push_back(inner ? s(y, from - 1, right - 1) : -1);
+      m.right_above.push_back(inner ? s(y, from + 1, right + 1) : -1);
     }
   return m;
 }

@@ -1,0 +1,178 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "apps/compute_files.h"
+#include "apps/score.h"
+#include "apps/verbs.h"
+#include "pomona/engine.h"
+
+namespace pomona {
+namespace {
+
+struct ComputeArguments {
+  ComputePaths paths;
+  std::optional<int> max_disparity;
+  int min_disparity = 0;
+  std::string preset = "balanced";
+  std::string mode = "dense";
+  int threads = 0;
+  std::string isa;
+  bool timings = false;
+};
+
+struct SearchRange {
+  int min = 0;
+  int count = 0;
+  std::string source;  // where the upper end comes from
+};
+
+template <typename... Values>
+void print(const char* format, Values... values) {
+  std::array<char, 512> line;
+  std::snprintf(line.data(), line.size(), format, values...);
+  std::cout << line.data() << '\n';
+}
+
+SearchRange searchRange(const ComputeArguments& arguments, const ComputeInputs& inputs) {
+  const int width = inputs.left.cols;
+  const int ndisp = inputs.calibration ? inputs.calibration->stereo.num_disparities : 0;
+  SearchRange range{arguments.min_disparity, 0, ""};
+  std::int64_t count = 0;
+  if (arguments.max_disparity) {
+    range.source = "--max-disparity";
+    count = std::int64_t{*arguments.max_disparity} - range.min;
+  } else if (ndisp > 0) {
+    range.source = "ndisp of " + arguments.paths.calibration;
+    count = std::int64_t{ndisp} - range.min;
+  } else {
+    range.source = "estimate";
+    count = estimateNumDisparities(inputs.left, inputs.right, range.min);
+  }
+  constexpr int kMostDisparities = 1024;
+  const int most = std::min(kMostDisparities, width);
+  if (count < 1 || count > most)
+    throw std::invalid_argument(range.source + ": the range from --min-disparity " +
+                                std::to_string(range.min) + " to below " + std::to_string(range.min + count) +
+                                " holds " + std::to_string(count) + " disparities; allowed: 1 to " +
+                                std::to_string(most) + " (the image is " + std::to_string(width) + " wide)");
+  range.count = static_cast<int>(count);
+  return range;
+}
+
+void printSummary(const ComputeArguments& arguments, const SearchRange& range, const StereoResult& result,
+                  double milliseconds) {
+  std::size_t known = 0;
+  std::array<std::size_t, 256> pixels_in_state{};
+  float low = 0, high = 0;
+  for (int y = 0; y < result.disparity.rows; ++y)
+    for (int x = 0; x < result.disparity.cols; ++x) {
+      ++pixels_in_state[result.state.at<std::uint8_t>(y, x)];
+      const float d = result.disparity.at<float>(y, x);
+      if (std::isnan(d)) continue;
+      low = known == 0 ? d : std::min(low, d);
+      high = known == 0 ? d : std::max(high, d);
+      ++known;
+    }
+  const double percent = 100.0 / static_cast<double>(result.disparity.total());
+  print("size      %d x %d", result.disparity.cols, result.disparity.rows);
+  print("searched  %d to %d px (%s)", range.min, range.min + range.count - 1, range.source.c_str());
+  print("found     %.2f to %.2f px", low, high);
+  print("coverage  %.2f %% (%s)", percent * known, arguments.mode.c_str());
+  for (std::size_t state = 0; state < pixels_in_state.size(); ++state)
+    if (pixels_in_state[state] > 0)
+      print("  %-22s %6.2f %%", std::string(name(static_cast<PixelState>(state))).c_str(),
+            percent * pixels_in_state[state]);
+  print("time      %.1f ms (%s)", milliseconds, arguments.preset.c_str());
+  if (arguments.timings)
+    for (const StageTiming& timing : result.timings)
+      print("  %-22s %8.2f ms", std::string(timing.stage).c_str(), timing.milliseconds);
+}
+
+void printScore(const Score& score) {
+  print(
+      "ground truth: %zu known pixels, bad-1 %.2f %%, bad-2 %.2f %%, average error %.3f px, coverage %.2f %%",
+      score.known_pixels, score.bad1_percent, score.bad2_percent, score.average_error_px,
+      score.coverage_percent);
+}
+
+void compute(const ComputeArguments& arguments) {
+  checkOutputs(arguments.paths);
+  const ComputeInputs inputs = readInputs(arguments.paths);
+  const SearchRange range = searchRange(arguments, inputs);
+
+  Options options = Options::preset(arguments.preset);
+  options.min_disparity = range.min;
+  options.num_disparities = range.count;
+  options.mode = arguments.mode == "sparse" ? OutputMode::kSparse : OutputMode::kDense;
+  options.threads = arguments.threads;
+  options.isa = arguments.isa;
+
+  StereoEngine engine(options);
+  const auto start = std::chrono::steady_clock::now();
+  const StereoResult& result = engine.compute(inputs.left, inputs.right, inputs.mask);
+  const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+
+  writeFiles(encodeOutputs(arguments.paths, inputs, result));
+  printSummary(arguments, range, result, elapsed.count());
+  if (!inputs.ground_truth.empty()) printScore(scoreAgainst(result.disparity, inputs.ground_truth));
+}
+
+void addFileOptions(CLI::App& verb, ComputePaths& paths) {
+  verb.add_option("left", paths.left, "Left image, the reference: 8 or 16 bits, gray or colour")->required();
+  verb.add_option("right", paths.right, "Right image of the rectified pair")->required();
+  verb.add_option("-o,--output", paths.disparity,
+                  "Disparity map: .pfm (float pixels), or .png (16 bits, KITTI's 1/256 px, 0 unknown)")
+      ->required();
+  verb.add_flag("--opencv-png", paths.opencv_png, "Let the .png disparity map count 1/16 px, 0 unknown");
+  CLI::Option* calibration = verb.add_option("--calib", paths.calibration,
+                                             "Middlebury calib.txt: geometry, and the range if it has ndisp");
+  verb.add_option("--mask", paths.mask, "8-bit gray image; pixels that are 0 stay unknown");
+  CLI::Option* ground_truth =
+      verb.add_option("--gt", paths.ground_truth, "True disparities (.pfm, or KITTI .png): print the error");
+  verb.add_option("--color", paths.color, "Picture of the disparities (.png): warm is near, black unknown");
+  verb.add_option("--state", paths.state, "Each pixel's state: a picture (.png), or its number (.pgm)");
+  verb.add_option("--confidence", paths.confidence, "Confidence: gray picture (.png), or 0 to 1 (.pfm)");
+  verb.add_option("--depth", paths.depth,
+                  "Depth: metres (.pfm, inf unknown), or millimetres (16-bit .png, 0 unknown)")
+      ->needs(calibration);
+  verb.add_option("--cloud", paths.cloud, "Coloured point cloud in metres (.ply)")->needs(calibration);
+  verb.add_option("--error", paths.error,
+                  "Picture of the error (.png): green 0, red 4 px and more, white no disparity")
+      ->needs(ground_truth);
+}
+
+void addMatchingOptions(CLI::App& verb, ComputeArguments& arguments) {
+  verb.add_option("--min-disparity", arguments.min_disparity,
+                  "Smallest disparity searched (default 0; may be negative)");
+  verb.add_option(
+      "--max-disparity", arguments.max_disparity,
+      "Search [min, max): max itself is not searched (default: the calibration's ndisp, else estimated)");
+  verb.add_option("--preset", arguments.preset, "fast, balanced (default), quality or paper");
+  verb.add_option("--mode", arguments.mode, "dense (default) or sparse: measured pixels only")
+      ->check(CLI::IsMember({"dense", "sparse"}));
+  verb.add_option("--threads", arguments.threads, "Worker threads (default 0: one per processor)");
+  verb.add_option("--isa", arguments.isa, "Instruction set to use (see pomona info)");
+  verb.add_flag("--timings", arguments.timings, "Print the time of every stage");
+}
+
+}  // namespace
+
+void addCompute(CLI::App& app) {
+  CLI::App* verb = app.add_subcommand("compute", "Compute the disparity map of a rectified pair");
+  const auto arguments = std::make_shared<ComputeArguments>();  // lives as long as the callback
+  addFileOptions(*verb, arguments->paths);
+  addMatchingOptions(*verb, *arguments);
+  verb->callback([arguments] { compute(*arguments); });
+}
+
+}  // namespace pomona

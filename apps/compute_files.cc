@@ -1,0 +1,209 @@
+#include "apps/compute_files.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <initializer_list>
+#include <opencv2/imgproc.hpp>
+#include <stdexcept>
+
+#include "camera/ply.h"
+#include "datasets/colorize.h"
+#include "datasets/disparity_file.h"
+#include "datasets/image_file.h"
+#include "datasets/input_file.h"
+#include "datasets/pfm.h"
+#include "datasets/png16.h"
+
+namespace pomona {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Frame {
+  const ComputePaths& paths;
+  const ComputeInputs& inputs;
+  const StereoResult& result;
+};
+
+// One kind of output: where its path is, which formats it comes in, and how the file's bytes are made.
+struct OutputKind {
+  const char* option;
+  std::string ComputePaths::*path;
+  std::vector<std::string> extensions;
+  std::string (*encode)(const Frame& frame, const std::string& extension);
+};
+
+cv::Mat toBgr8(const cv::Mat& image) {
+  cv::Mat bytes, bgr;
+  image.convertTo(bytes, CV_8U, image.depth() == CV_16U ? 1 / 257.0 : 1);
+  if (bytes.channels() == 3) return bytes;
+  cv::cvtColor(bytes, bgr, cv::COLOR_GRAY2BGR);
+  return bgr;
+}
+
+std::string encodeDisparity(const Frame& frame, const std::string& extension) {
+  if (extension == ".pfm") return encodePfm(frame.result.disparity);
+  return encodeDisparityPng(frame.result.disparity, frame.paths.opencv_png ? kOpenCvScale : kKittiScale);
+}
+
+std::string encodeColor(const Frame& frame, const std::string&) {
+  return encodeImage(colorizeDisparity(frame.result.disparity, typicalRange(frame.result.disparity)));
+}
+
+std::string encodeState(const Frame& frame, const std::string& extension) {
+  if (extension == ".pgm") return encodeImage(frame.result.state, extension);
+  return encodeImage(colorizeStates(frame.result.state));
+}
+
+std::string encodeConfidence(const Frame& frame, const std::string& extension) {
+  if (extension == ".pfm") return encodePfm(frame.result.confidence);
+  return encodeImage(confidenceToGray(frame.result.confidence));
+}
+
+std::string encodeDepth(const Frame& frame, const std::string& extension) {
+  const cv::Mat depth = depthFromDisparity(frame.result.disparity, frame.inputs.calibration->stereo);
+  return extension == ".pfm" ? encodePfm(depth) : encodeDepthPng(depth);
+}
+
+std::string encodeCloud(const Frame& frame, const std::string&) {
+  return encodePly(frame.result.disparity, toBgr8(frame.inputs.left), frame.inputs.calibration->stereo);
+}
+
+std::string encodeError(const Frame& frame, const std::string&) {
+  return encodeImage(colorizeError(frame.result.disparity, frame.inputs.ground_truth));
+}
+
+const std::vector<OutputKind>& outputKinds() {
+  static const std::vector<OutputKind> kinds = {
+      {"--output", &ComputePaths::disparity, {".pfm", ".png"}, encodeDisparity},
+      {"--color", &ComputePaths::color, {".png"}, encodeColor},
+      {"--state", &ComputePaths::state, {".png", ".pgm"}, encodeState},
+      {"--confidence", &ComputePaths::confidence, {".png", ".pfm"}, encodeConfidence},
+      {"--depth", &ComputePaths::depth, {".pfm", ".png"}, encodeDepth},
+      {"--cloud", &ComputePaths::cloud, {".ply"}, encodeCloud},
+      {"--error", &ComputePaths::error, {".png"}, encodeError},
+  };
+  return kinds;
+}
+
+bool sameFile(const std::string& a, const std::string& b) {
+  std::error_code error;
+  return fs::equivalent(a, b, error) || fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
+}
+
+void requireExtension(const OutputKind& kind, const std::string& path) {
+  const std::string extension = extensionOf(path);
+  if (std::find(kind.extensions.begin(), kind.extensions.end(), extension) != kind.extensions.end()) return;
+  std::string allowed;
+  for (const std::string& e : kind.extensions) allowed += (allowed.empty() ? "" : ", ") + e;
+  throw std::runtime_error(std::string(kind.option) + " is '" + path + "'; allowed extensions: " + allowed);
+}
+
+// libpng and libjpeg write their complaints straight to the error stream, where only our own line belongs.
+class MutedErrorStream {
+ public:
+  MutedErrorStream() : saved_(::dup(STDERR_FILENO)), nothing_(::open("/dev/null", O_WRONLY | O_CLOEXEC)) {
+    if (saved_ >= 0 && nothing_ >= 0) ::dup2(nothing_, STDERR_FILENO);
+  }
+  ~MutedErrorStream() {
+    if (saved_ >= 0 && nothing_ >= 0) ::dup2(saved_, STDERR_FILENO);
+    if (saved_ >= 0) ::close(saved_);
+    if (nothing_ >= 0) ::close(nothing_);
+  }
+  MutedErrorStream(const MutedErrorStream&) = delete;
+  MutedErrorStream& operator=(const MutedErrorStream&) = delete;
+
+ private:
+  int saved_, nothing_;
+};
+
+cv::Mat readView(const std::string& path) {
+  cv::Mat image = readImage(path);
+  const bool usable =
+      (image.depth() == CV_8U || image.depth() == CV_16U) && (image.channels() == 1 || image.channels() == 3);
+  if (!usable)
+    throw std::runtime_error(path + ": has " + describeType(image) +
+                             "; allowed: 1 or 3 channels of 8 or 16 bits");
+  return image;
+}
+
+void requireSide(const std::string& path, const char* side, int found, int expected) {
+  if (found != 0 && found != expected)
+    throw std::runtime_error(path + ": " + side + " is " + std::to_string(found) + "; the left image's is " +
+                             std::to_string(expected));
+}
+
+void requireSize(const std::string& path, cv::Size found, const cv::Mat& left) {
+  requireSide(path, "width", found.width, left.cols);
+  requireSide(path, "height", found.height, left.rows);
+}
+
+}  // namespace
+
+void checkOutputs(const ComputePaths& paths) {
+  const std::string inputs[] = {paths.left, paths.right, paths.mask, paths.calibration, paths.ground_truth};
+  std::vector<std::string> outputs;
+  for (const OutputKind& kind : outputKinds()) {
+    const std::string& path = paths.*kind.path;
+    if (path.empty()) continue;
+    requireExtension(kind, path);
+    checkOutputPath(path);
+    const auto same = [&](const std::string& other) { return !other.empty() && sameFile(path, other); };
+    if (std::any_of(std::begin(inputs), std::end(inputs), same))
+      throw std::runtime_error(std::string(kind.option) + " is '" + path + "', which is an input");
+    if (std::any_of(outputs.begin(), outputs.end(), same))
+      throw std::runtime_error(std::string(kind.option) + " is '" + path +
+                               "', which is another output already");
+    outputs.push_back(path);
+  }
+  if (paths.opencv_png && extensionOf(paths.disparity) != ".png")
+    throw std::runtime_error("--opencv-png: --output is '" + paths.disparity + "'; allowed extension: .png");
+}
+
+ComputeInputs readInputs(const ComputePaths& paths) {
+  const MutedErrorStream muted;
+  ComputeInputs inputs;
+  inputs.left = readView(paths.left);
+  inputs.right = readView(paths.right);
+  requireSize(paths.right, inputs.right.size(), inputs.left);
+  if (inputs.right.type() != inputs.left.type())
+    throw std::runtime_error(paths.right + ": has " + describeType(inputs.right) + "; the left image has " +
+                             describeType(inputs.left));
+  if (!paths.mask.empty()) {
+    inputs.mask = readImage(paths.mask);
+    if (inputs.mask.type() != CV_8UC1)
+      throw std::runtime_error(paths.mask + ": has " + describeType(inputs.mask) +
+                               "; allowed: 1 channel of 8 bits");
+    requireSize(paths.mask, inputs.mask.size(), inputs.left);
+  }
+  if (!paths.ground_truth.empty()) {
+    inputs.ground_truth = readDisparity(paths.ground_truth);
+    requireSize(paths.ground_truth, inputs.ground_truth.size(), inputs.left);
+  }
+  if (!paths.calibration.empty()) {
+    inputs.calibration = readMiddleburyCalibration(paths.calibration);
+    const StereoCalibration& stereo = inputs.calibration->stereo;
+    requireSize(paths.calibration, {stereo.width, stereo.height}, inputs.left);
+  }
+  return inputs;
+}
+
+std::vector<OutputFile> encodeOutputs(const ComputePaths& paths, const ComputeInputs& inputs,
+                                      const StereoResult& result) {
+  std::vector<OutputFile> files;
+  for (const OutputKind& kind : outputKinds()) {
+    const std::string& path = paths.*kind.path;
+    if (path.empty()) continue;
+    try {
+      files.push_back({path, kind.encode({paths, inputs, result}, extensionOf(path))});
+    } catch (const std::invalid_argument& e) {
+      throw std::runtime_error(path + ": " + e.what());
+    }
+  }
+  return files;
+}
+
+}  // namespace pomona

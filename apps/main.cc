@@ -1,0 +1,49 @@
+// The `pomona` command: parses, runs a verb, and turns whatever goes wrong into one line and an exit status.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <csignal>
+#include <iostream>
+#include <new>
+#include <opencv2/core/utils/logger.hpp>
+#include <string>
+
+#include "apps/verbs.h"
+
+namespace {
+
+constexpr int kBadInput = 1;
+constexpr int kBadUsage = 2;
+
+int fail(std::string message, int status) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  std::cout.flush();
+  std::cerr << "pomona: error: " << message << '\n';
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is then an error of write(), like a full disk
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+
+  CLI::App app("Dense disparity maps from rectified stereo pairs.", "pomona");
+  app.set_version_flag("--version", "pomona " POMONA_VERSION);
+  app.require_subcommand(1);
+  pomona::addCompute(app);
+  pomona::addInfo(app);
+  pomona::addRender(app);
+  try {
+    app.parse(argc, argv);
+    if (!std::cout.flush()) return fail("standard output: cannot be written", kBadInput);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app.exit(e);  // --help and --version
+    return fail(std::string(e.what()) + " (see pomona --help)", kBadUsage);
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory", kBadInput);
+  } catch (const std::exception& e) {
+    return fail(e.what(), kBadInput);
+  }
+  return 0;
+}

@@ -1,0 +1,15 @@
+// The verbs of the command. Each adds its subcommand to `app`; parsing the command line then runs it. Verbs
+// report bad input by throwing std::invalid_argument or std::runtime_error.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace pomona {
+
+void addCompute(CLI::App& app);
+void addInfo(CLI::App& app);
+void addRender(CLI::App& app);
+
+}  // namespace pomona

@@ -1,0 +1,27 @@
+// Middlebury's calib.txt (2014 and later): "key=value" lines with the pair's geometry.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "pomona/calibration.h"
+
+namespace pomona {
+
+struct MiddleburyCalibration {
+  StereoCalibration stereo;  ///< width, height and num_disparities (ndisp) are 0 where the file is silent
+  bool integer_disparities = false;    ///< isint: the ground truth holds whole numbers only
+  std::optional<int> vmin, vmax;       ///< tight bounds on the disparities, pixels
+  std::optional<double> dyavg, dymax;  ///< average and largest vertical misalignment, pixels
+};
+
+/// Reads cam0=[f 0 cx; 0 f cy; 0 0 1] and baseline (millimetres), which are required; cam1, doffs (pixels;
+/// without it cam1's cx minus cam0's, else 0), width, height, ndisp, isint, vmin, vmax, dyavg and dymax.
+/// Other keys are ignored. Throws std::runtime_error "path: line N: ..." for what cannot be understood or
+/// makes no sense.
+MiddleburyCalibration readMiddleburyCalibration(const std::string& path);
+
+/// The file for `calibration`; figures that are 0 because they are unknown are left out.
+std::string encodeMiddleburyCalibration(const StereoCalibration& calibration);
+
+}  // namespace pomona

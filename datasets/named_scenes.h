@@ -1,0 +1,23 @@
+// Ready-made scenes for the renderer.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "datasets/render.h"
+
+namespace pomona {
+
+/// "boxes", "orchard", "planes", "spheres".
+std::vector<std::string> sceneNames();
+
+/// The scene called `name`, arranged by `seed`. `num_disparities` scales its depths: the nearest surface lies
+/// a little below that disparity; 0 stands for a tenth of the width. Every ray meets a surface. Throws
+/// std::invalid_argument for an unknown name, a side outside 16..8192, or num_disparities outside 8..width
+/// / 2.
+SceneDescription namedScene(std::string_view name, std::uint64_t seed, int width, int height,
+                            int num_disparities = 0);
+
+}  // namespace pomona

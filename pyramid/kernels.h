@@ -1,0 +1,46 @@
+// The row loops of scaling, pyramids and hole filling, one table of them per instruction set.
+//
+// Every table gives the same bytes: integer sums are exact, float expressions are evaluated per element in
+// the order written here, and nothing is contracted. Rows need no alignment and may have any length >= 0.
+#pragma once
+
+#include <cstdint>
+
+namespace pomona {
+
+enum class Isa;
+
+struct PyramidKernels {
+  /// sum[i] += weight * in[i]
+  void (*accumulate8)(const std::uint8_t* in, std::uint32_t weight, int n, std::uint32_t* sum);
+  void (*accumulate16)(const std::uint16_t* in, std::uint32_t weight, int n, std::uint32_t* sum);
+
+  /// out[x] = sum over k of weight[k n + x] * in[index[k n + x]], k = 0..3
+  void (*cubicRow)(const float* in, const std::int32_t* index, const float* weight, int n, float* out);
+  /// out[x] = sum over k of weight[k] * rows[k][x]
+  void (*cubicColumn)(const float* const rows[4], const float weight[4], int n, float* out);
+
+  /// Every second sample of `in` (n of them) after [1 4 6 4 1]/16, both ends replicated; writes (n + 1) / 2.
+  void (*reduceRow)(const float* in, int n, float* out);
+  /// out = (rows[0] + 4 rows[1] + 6 rows[2] + 4 rows[3] + rows[4]) / 16
+  void (*reduceColumn)(const float* const rows[5], int n, float* out);
+  /// The (n + 1) / 2 samples of `in` at twice their rate: [1 6 1]/8 at even, [1 1]/2 at odd places; writes n.
+  void (*expandRow)(const float* in, int n, float* out);
+  /// inout += side_weight * (above + below) + middle_weight * middle
+  void (*addExpandedColumn)(const float* above, const float* middle, const float* below, float side_weight,
+                            float middle_weight, int n, float* inout);
+
+  /// inout = (inout + other) / 2
+  void (*average)(const float* other, int n, float* inout);
+  /// inout = weight * inout + (1 - weight) * other
+  void (*blend)(const float* other, const float* weight, int n, float* inout);
+
+  /// One step along a ray: out[i] = open[i] & saturating(previous[i] + 1); `open` is 0 at a source, else
+  /// 0xffff.
+  void (*advanceRays)(const std::uint16_t* previous, const std::uint16_t* open, int n, std::uint16_t* out);
+};
+
+/// The table of an instruction set; that of the scalar build if there is none for it.
+const PyramidKernels& pyramidKernels(Isa isa);
+
+}  // namespace pomona
