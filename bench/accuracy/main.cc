@@ -1,0 +1,110 @@
+// Runs every preset and OpenCV's matcher on scenes with known truth, and tabulates how wrong they are.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <opencv2/core/utility.hpp>
+#include <stdexcept>
+
+#include "bench/accuracy/guard.h"
+#include "bench/accuracy/methods.h"
+#include "bench/accuracy/report.h"
+#include "datasets/scene.h"
+
+namespace pomona {
+namespace {
+
+constexpr int kSkipped = 77;  // what ctest takes as "skipped"
+
+struct Arguments {
+  std::string scenes;
+  std::string markdown, json, accepted;
+};
+
+// Folders with a pair and its truth, at any depth below `root`, by name.
+std::vector<std::filesystem::path> findScenes(const std::string& root) {
+  std::vector<std::filesystem::path> scenes;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root))
+    if (entry.path().filename() == "disp0GT.pfm" && exists(entry.path().parent_path() / "im0.png"))
+      scenes.push_back(entry.path().parent_path());
+  std::sort(scenes.begin(), scenes.end());
+  return scenes;
+}
+
+// The same range for everybody, taken from the truth: what is compared is the matching, not the guessing.
+int disparitiesNeeded(const cv::Mat& truth) {
+  float largest = 0;
+  for (int y = 0; y < truth.rows; ++y)
+    for (int x = 0; x < truth.cols; ++x)
+      if (const float d = truth.at<float>(y, x); std::isfinite(d)) largest = std::max(largest, d);
+  const int needed = static_cast<int>(std::ceil(largest)) + 4;
+  return std::min((needed + 15) / 16 * 16, truth.cols);
+}
+
+SceneFigures measure(const Method& method, const Scene& scene, const std::string& name) {
+  const cv::Mat disparity = method.match(scene.left, scene.right, disparitiesNeeded(scene.ground_truth));
+  SceneFigures figures{name, figuresOf(compareWithTruth(disparity, scene.ground_truth)), figuresOf({})};
+  if (!scene.nonoccluded.empty())
+    figures.nonoccluded = figuresOf(compareWithTruth(disparity, scene.ground_truth, scene.nonoccluded));
+  return figures;
+}
+
+std::vector<MethodFigures> measureAll(const std::vector<Method>& methods, const std::string& root) {
+  std::vector<MethodFigures> results;
+  for (const Method& method : methods) results.push_back({method.name, method.dense, {}});
+  for (const std::filesystem::path& folder : findScenes(root)) {
+    const Scene scene = readScene(folder.string());
+    const std::string name = folder.filename().string();
+    std::fprintf(stderr, "%s\n", name.c_str());
+    for (std::size_t i = 0; i < methods.size(); ++i)
+      results[i].scenes.push_back(measure(methods[i], scene, name));
+  }
+  if (results.front().scenes.empty())
+    throw std::runtime_error(root + ": no scene (im0.png, disp0GT.pfm) found");
+  return results;
+}
+
+void write(const std::string& path, const std::string& text) {
+  if (!path.empty() && !(std::ofstream(path) << text << std::flush))
+    throw std::runtime_error(path + ": cannot be written");
+}
+
+int run(const Arguments& arguments) {
+  if (!arguments.accepted.empty() && !std::filesystem::is_directory(arguments.scenes)) {
+    std::printf("datasets absent: skipped (set POMONA_DATASETS to a folder of Middlebury-layout scenes)\n");
+    return kSkipped;
+  }
+  const std::vector<Method> methods = accuracyMethods();
+  const std::vector<MethodFigures> results = measureAll(methods, arguments.scenes);
+  const std::string table = markdown(results);
+  std::cout << table;
+  write(arguments.markdown, table);
+  write(arguments.json, json(results));
+  if (arguments.accepted.empty()) return 0;
+  const auto failures = accuracyFailures(methods, results, readAccepted(arguments.accepted));
+  for (const std::string& failure : failures) std::cout << "FAILED: " << failure << "\n";
+  return failures.empty() ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace pomona
+
+int main(int argc, char** argv) {
+  pomona::Arguments arguments;
+  CLI::App app("Accuracy of all presets and of OpenCV StereoSGBM MODE_HH on scenes in Middlebury's layout");
+  app.add_option("scenes", arguments.scenes, "folder below which the scenes lie")->required();
+  app.add_option("--markdown", arguments.markdown, "write the tables to this file");
+  app.add_option("--json", arguments.json, "write the figures to this file");
+  app.add_option("--guard", arguments.accepted,
+                 "fail if the figures are worse than those of this earlier --json");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return pomona::run(arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "pomona_accuracy: error: %s\n", error.what());
+    return 1;
+  }
+}
