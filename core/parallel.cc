@@ -1,33 +1,99 @@
 #include "core/parallel.h"
 
-#include <omp.h>
+#include <sched.h>
 
 #include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+#include <vector>
 
 namespace pomona {
 namespace {
 
+/// One call of parallelFor, on its caller's stack.
 struct Job {
   FunctionRef<void(int)> task;
   int count;
   std::atomic<int> next{0};
-  std::atomic<int> finished{0};
+
+  // Guarded by the pool's mutex.
+  int wanted = 0;  // further threads that may join
+  int active = 0;  // threads that have joined and not left
+  Job* behind = nullptr;
+  std::condition_variable left{};
+
+  void drain() {
+    for (int i; (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) task(i);
+  }
 };
 
-// Takes tasks until none is left. The release/acquire pair on `finished` is what makes the results of all
-// tasks visible to the caller without relying on the OpenMP runtime's own (uninstrumented) barrier.
-void drain(Job& job) {
-  for (int i; (i = job.next.fetch_add(1, std::memory_order_acq_rel)) < job.count;) job.task(i);
-  job.finished.fetch_add(1, std::memory_order_acq_rel);
-}
+/// Threads that sleep until a job wants them. They are started once and shared by all engines; a caller
+/// always works on its own job too, so it never depends on one of them being free.
+class Pool {
+ public:
+  static Pool& instance() {
+    static Pool pool;
+    return pool;
+  }
 
-// libgomp is not instrumented, so ThreadSanitizer cannot see that its fork orders the caller's writes before
-// the workers' first read of the region's arguments; only that hand-over is exempt from it, the tasks are
-// not.
-__attribute__((no_sanitize("thread"), noinline)) void fork(int threads, Job& job) {
-#pragma omp parallel num_threads(threads) default(none) shared(job)
-  drain(job);
-}
+  void run(Job& job, int threads) {
+    std::unique_lock lock(mutex_);
+    while (static_cast<int>(workers_.size()) < threads - 1) workers_.emplace_back([this] { work(); });
+    job.wanted = threads - 1;
+    job.behind = jobs_;
+    jobs_ = &job;
+    lock.unlock();
+    if (threads == 2)
+      wake_.notify_one();
+    else
+      wake_.notify_all();
+    job.drain();
+
+    lock.lock();
+    Job** link = &jobs_;
+    while (*link != &job) link = &(*link)->behind;
+    *link = job.behind;
+    job.left.wait(lock, [&] { return job.active == 0; });
+  }
+
+  ~Pool() {
+    {
+      const std::lock_guard lock(mutex_);
+      stopping_ = true;
+    }
+    wake_.notify_all();
+    for (std::thread& worker : workers_) worker.join();
+  }
+
+ private:
+  Job* jobInNeed() {
+    for (Job* job = jobs_; job; job = job->behind)
+      if (job->wanted > 0 && job->next.load(std::memory_order_relaxed) < job->count) return job;
+    return nullptr;
+  }
+
+  void work() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+      Job* job = nullptr;
+      wake_.wait(lock, [&] { return stopping_ || (job = jobInNeed()) != nullptr; });
+      if (stopping_) return;
+      --job->wanted;
+      ++job->active;
+      lock.unlock();
+      job->drain();
+      lock.lock();
+      if (--job->active == 0) job->left.notify_one();
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable wake_;
+  std::vector<std::thread> workers_;
+  Job* jobs_ = nullptr;
+  bool stopping_ = false;
+};
 
 }  // namespace
 
@@ -38,9 +104,7 @@ void parallelFor(int threads, int count, FunctionRef<void(int)> task) {
     return;
   }
   Job job{task, count};
-  job.next.store(0, std::memory_order_release);
-  fork(threads, job);
-  job.finished.load(std::memory_order_acquire);
+  Pool::instance().run(job, threads);
 }
 
 void parallelStrips(int threads, int rows, int min_rows, FunctionRef<void(int, int)> task) {
@@ -56,7 +120,9 @@ void parallelStrips(int threads, int rows, int min_rows, FunctionRef<void(int, i
 }
 
 int availableThreads() {
-  return std::max(1, omp_get_num_procs());
+  cpu_set_t allowed;
+  if (sched_getaffinity(0, sizeof allowed, &allowed) == 0) return std::max(1, CPU_COUNT(&allowed));
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 }  // namespace pomona

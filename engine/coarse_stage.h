@@ -16,7 +16,7 @@ class CoarseStage {
  public:
   /// `settings` are those of the full size. Returns a dense map of the pair's size, in its pixels, valid
   /// until the next call; all NaN if neither scale measured anything.
-  ImageView<const float> run(const GrayPair& pair, GuideView guide, const SparseStage::Settings& settings,
+  ImageView<const float> run(const MatchInput& pair, const SparseStage::Settings& settings,
                              const CompletionOptions& completion);
 
  private:
@@ -29,8 +29,8 @@ class CoarseStage {
   };
   static constexpr std::array<int, 2> kFactors = {4, 5};
 
-  void completeScale(Scale& scale, int factor, const GrayPair& pair, GuideView guide,
-                     const SparseStage::Settings& settings, const CompletionOptions& completion);
+  void completeScale(Scale& scale, int factor, const MatchInput& pair, const SparseStage::Settings& settings,
+                     const CompletionOptions& completion);
 
   std::array<Scale, kFactors.size()> scales_;
   ScaleScratch scale_scratch_;

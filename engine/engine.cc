@@ -66,7 +66,7 @@ SparseStage::Settings StereoEngine::State::settings(const cv::Mat& mask) const {
 void StereoEngine::State::fillWithCoarse(const SparseStage::Settings& settings) {
   MatchMaps& maps = sparse.maps();
   maps.resize(input.width(), input.height());
-  const ImageView<const float> map = coarse.run(input.gray(), input.left(), settings, options.completion);
+  const ImageView<const float> map = coarse.run(input.views(), settings, options.completion);
   parallelStrips(threads, map.height, 32, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < map.width; ++x) {
@@ -83,10 +83,8 @@ void StereoEngine::State::fillWithCoarse(const SparseStage::Settings& settings) 
 
 void StereoEngine::State::complete(const SparseStage::Settings& settings) {
   MatchMaps& maps = sparse.maps();
-  const auto coarse_map = [&] {
-    return coarse.run(input.gray(), input.left(), settings, options.completion);
-  };
-  fillHoles({.guide = input.left(),
+  const auto coarse_map = [&] { return coarse.run(input.views(), settings, options.completion); };
+  fillHoles({.guide = input.views().guide,
              .right_disparity = maps.right_disparity.view(),
              .coarse = coarse_map,
              .search_radius_px = options.completion.search_radius_px,
@@ -127,10 +125,10 @@ const StereoResult& StereoEngine::compute(const cv::Mat& left, const cv::Mat& ri
     clock.lap("coarse maps");
   } else {
     if (s.options.cost.cost == MatchingCost::kMutualInformation) {
-      settings.mutual_information = s.mutual_information.table(s.input.gray(), settings);
+      settings.mutual_information = s.mutual_information.table(s.input.views(), settings);
       clock.lap("mutual information");
     }
-    s.sparse.run(s.input.gray(), settings, clock);
+    s.sparse.run(s.input.views(), settings, clock);
     if (s.options.mode == OutputMode::kDense) {
       s.complete(settings);
       clock.lap("completion");

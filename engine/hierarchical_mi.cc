@@ -31,7 +31,7 @@ void HierarchicalMi::enlarge(ImageView<const float> from, int width, int height)
   }
 }
 
-std::span<const std::uint8_t> HierarchicalMi::table(const GrayPair& pair,
+std::span<const std::uint8_t> HierarchicalMi::table(const MatchInput& pair,
                                                     const SparseStage::Settings& settings) {
   const int width = pair.left.width, height = pair.left.height;
   const PyramidKernels& kernels = pyramidKernels(settings.isa);
@@ -50,7 +50,11 @@ std::span<const std::uint8_t> HierarchicalMi::table(const GrayPair& pair,
     SparseStage::Settings at_level = settings;
     at_level.match = scaledOptions(settings.match, static_cast<double>(width) / w, w);
     at_level.mask = {};
-    const GrayPair small{level.left.view(), level.right.view(), {}, {}};
+    const MatchInput small{level.left.view(),
+                           level.right.view(),
+                           {},
+                           {},
+                           {level.left.row(0), w, h, 1, level.left.view().stride}};
     if (!started) {
       guess_.resize(w, h);
       fillRandomly(guess_.view(), at_level.match);

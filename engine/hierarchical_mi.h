@@ -17,7 +17,7 @@ class HierarchicalMi {
   HierarchicalMi() : mi_(std::make_unique<MutualInformation>()) {}
 
   /// The cost table for matching `pair` as `settings` says; valid until the next call.
-  std::span<const std::uint8_t> table(const GrayPair& pair, const SparseStage::Settings& settings);
+  std::span<const std::uint8_t> table(const MatchInput& pair, const SparseStage::Settings& settings);
 
  private:
   struct Level {

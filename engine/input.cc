@@ -83,12 +83,11 @@ void InputPair::set(const cv::Mat& left, const cv::Mat& right, int threads) {
   const cv::Mat* images[2] = {&left, &right};
   ImageView<const std::uint8_t> gray8[2];
   ImageView<const std::uint16_t> gray16[2];
+  GuideView guide;
   if (left.depth() == CV_8U) {
-    for (int i = 0; i < 2; ++i) {
-      gray8[i] = grayOf(*images[i], buffers_[i].gray8, threads);
-      const ImageView<const std::uint8_t> v = viewOf<std::uint8_t>(*images[i]);
-      guide_[i] = {v.data, left.cols, v.height, left.channels(), v.stride};
-    }
+    for (int i = 0; i < 2; ++i) gray8[i] = grayOf(*images[i], buffers_[i].gray8, threads);
+    const ImageView<const std::uint8_t> v = viewOf<std::uint8_t>(left);
+    guide = {v.data, left.cols, left.rows, left.channels(), v.stride};
   } else {
     // 8-bit stages see the upper bits that are in use: 10- and 12-bit cameras leave the top ones empty.
     const int largest =
@@ -97,13 +96,12 @@ void InputPair::set(const cv::Mat& left, const cv::Mat& right, int threads) {
     for (int i = 0; i < 2; ++i) {
       gray16[i] = grayOf(*images[i], buffers_[i].gray16, threads);
       gray8[i] = shiftedDown(gray16[i], shift, buffers_[i].gray8, threads);
-      ImageView<const std::uint8_t> guide = gray8[i];
-      if (left.channels() == 3)
-        guide = shiftedDown(viewOf<std::uint16_t>(*images[i]), shift, buffers_[i].guide8, threads);
-      guide_[i] = {guide.data, left.cols, guide.height, left.channels(), guide.stride};
     }
+    const ImageView<const std::uint8_t> v =
+        left.channels() == 1 ? gray8[0] : shiftedDown(viewOf<std::uint16_t>(left), shift, guide8_, threads);
+    guide = {v.data, left.cols, left.rows, left.channels(), v.stride};
   }
-  gray_ = {gray8[0], gray8[1], gray16[0], gray16[1]};
+  views_ = {gray8[0], gray8[1], gray16[0], gray16[1], guide};
 }
 
 void requireRangeFits(int min_disparity, int num_disparities, int width) {

@@ -17,21 +17,19 @@ class InputPair {
   /// Throws std::invalid_argument naming the argument, what it is and what is allowed.
   void set(const cv::Mat& left, const cv::Mat& right, int threads);
 
-  int width() const { return gray_.left.width; }
-  int height() const { return gray_.left.height; }
-  const GrayPair& gray() const { return gray_; }
-  /// 8-bit views with the caller's number of channels.
-  GuideView left() const { return guide_[0]; }
-  GuideView right() const { return guide_[1]; }
+  int width() const { return views_.left.width; }
+  int height() const { return views_.left.height; }
+  /// The guide has the caller's number of channels.
+  const MatchInput& views() const { return views_; }
 
  private:
   struct Buffers {
-    Image<std::uint8_t> gray8, guide8;
+    Image<std::uint8_t> gray8;
     Image<std::uint16_t> gray16;
   };
-  GrayPair gray_;
-  GuideView guide_[2];
+  MatchInput views_;
   Buffers buffers_[2];
+  Image<std::uint8_t> guide8_;
 };
 
 /// Gray from 8- or 16-bit BGR: (29 B + 150 G + 77 R + 128) / 256.

@@ -56,6 +56,8 @@ int maximumCost(MatchingCost cost) {
       return 31;
     case MatchingCost::kMutualInformation:
       return MutualInformation::kMaximumCost;
+    case MatchingCost::kBlended:
+      return 45;
   }
   return 255;
 }
@@ -67,7 +69,8 @@ void Options::validate() const {
   requireRange("threads", threads, 0, 1024);
   chooseIsa(isa);
 
-  requireEnum("cost.cost", cost.cost, MatchingCost::kMutualInformation);
+  requireEnum("cost.cost", cost.cost, MatchingCost::kBlended);
+  requireRange("cost.support_color_step", cost.support_color_step, 0, 255);
   requireOneOf("aggregation.paths", aggregation.paths, {4, 8});
   requireEnum("aggregation.adaptation", aggregation.adaptation, PenaltyAdaptation::kSoftIntensity);
   const int budget = 255 - maximumCost(cost.cost);
@@ -98,7 +101,7 @@ Options Options::preset(std::string_view name) {
   Options o;
   if (name == "balanced") return o;
   if (name == "fast") {
-    o.cost.cost = MatchingCost::kCensus5x5;
+    o.cost = {MatchingCost::kCensus5x5, 0};
     o.aggregation = {8, 5, 40, 10, PenaltyAdaptation::kSoftIntensity};
     return o;
   }
@@ -108,7 +111,7 @@ Options Options::preset(std::string_view name) {
     return o;
   }
   if (name == "paper") {
-    o.cost.cost = MatchingCost::kMutualInformation;
+    o.cost = {MatchingCost::kMutualInformation, 0};
     o.aggregation = {8, 10, 100, 10, PenaltyAdaptation::kInverseIntensity};
     o.winner.subpixel = SubpixelMethod::kParabola;
     o.completion.method = CompletionMethod::kPaper;

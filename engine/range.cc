@@ -45,7 +45,7 @@ int estimateNumDisparities(const cv::Mat& left, const cv::Mat& right, int min_di
   const double ratio = static_cast<double>(left.cols) / width;
   ScaleScratch scratch;
   Image<std::uint8_t> small[2];
-  const ImageView<const std::uint8_t> gray[2] = {input.gray().left, input.gray().right};
+  const ImageView<const std::uint8_t> gray[2] = {input.views().left, input.views().right};
   for (int i = 0; i < 2; ++i)
     areaDownscale(GuideView{gray[i].data, gray[i].width, gray[i].height, 1, gray[i].stride}, small[i], width,
                   height, scratch, pyramidKernels(isa), threads);
@@ -60,7 +60,9 @@ int estimateNumDisparities(const cv::Mat& left, const cv::Mat& right, int min_di
   settings.threads = threads;
   SparseStage stage;
   StageClock untimed;
-  stage.run({small[0].view(), small[1].view(), {}, {}}, settings, untimed);
+  stage.run(
+      {small[0].view(), small[1].view(), {}, {}, {small[0].row(0), width, height, 1, small[0].view().stride}},
+      settings, untimed);
 
   const float widest = static_cast<float>(min_disparity + left.cols) / static_cast<float>(ratio);
   const double largest = ratio * nearlyLargest(stage.maps().disparity.view(), widest);

@@ -30,7 +30,7 @@ void removeRejected(MatchMaps& maps, ImageView<const std::uint8_t> mask, int thr
 
 }  // namespace
 
-void SparseStage::run(const GrayPair& pair, const Settings& s, StageClock& clock) {
+void SparseStage::run(const MatchInput& pair, const Settings& s, StageClock& clock) {
   const ValidationOptions& v = s.validation;
   matcher_.match(pair, s.match, s.mutual_information, sgmKernels(s.isa), maps_, s.threads);
   removeRejected(maps_, s.mask, s.threads);

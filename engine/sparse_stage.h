@@ -25,7 +25,7 @@ class SparseStage {
   };
 
   /// Afterwards maps() holds the validated map: NaN with a reason wherever the state is not measured.
-  void run(const GrayPair& pair, const Settings& settings, StageClock& clock);
+  void run(const MatchInput& pair, const Settings& settings, StageClock& clock);
 
   MatchMaps& maps() { return maps_; }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 
 #include "core/parallel.h"
@@ -15,7 +14,7 @@ constexpr std::uint32_t quad(int byte) {
   return static_cast<std::uint32_t>(byte) * 0x01010101u;
 }
 
-/// P2 for an intensity step of 0..255.
+/// P2 for a colour step of 0..255.
 int adaptedPenalty(const AggregationOptions& o, int step) {
   switch (o.adaptation) {
     case PenaltyAdaptation::kConstant:
@@ -38,7 +37,7 @@ void WinnerMaps::resize(int width, int height) {
 
 struct Aggregator::Pass {
   const MatchingCostRows& cost;
-  ImageView<const std::uint8_t> guide;
+  const ColorSteps& steps;
   const AggregationOptions& options;
   const SgmKernels& kernels;
   bool wide;  // 16-bit partial sums
@@ -50,45 +49,54 @@ struct Aggregator::Pass {
   int middle() const { return cost.height() / 2; }
 };
 
-void Aggregator::reset(Sweep& s, int width, int lanes) {
-  const std::size_t bytes = static_cast<std::size_t>(width + 2) * lanes;
+void Aggregator::reset(const Pass& pass, Sweep& s) {
+  const int width = pass.cost.width();
+  const std::size_t bytes = static_cast<std::size_t>(width + 2) * pass.cost.range().lanes();
   for (Buffer<std::uint8_t>& path : s.path) {
     path.resize(bytes);
     std::memset(path.data(), 0, bytes);
   }
   s.minima.resize(4 * static_cast<std::size_t>(width + 2));
   std::fill_n(s.minima.data(), 4 * static_cast<std::size_t>(width + 2), 0u);
-  s.cost.resize(static_cast<std::size_t>(width) * lanes);
+  s.cost.start(pass.cost);
   for (Buffer<std::uint32_t>& p2 : s.p2) {
     p2.resize(width);
     std::fill_n(p2.data(), width, p2_of_step_[0]);
   }
 }
 
-/// The steps into row y come from row y + from_row (the three paths) and from column x + from_x (the
+/// The steps into row y come from row y + from_row (three paths) and from column x + from_column (the
 /// horizontal one).
-AggregateRow Aggregator::prepareRow(const Pass& pass, Sweep& s, int y, int from_row, int from_x) {
-  const int width = pass.cost.width(), height = pass.cost.height();
-  pass.cost.row(y, s.cost.data());
+AggregateRow Aggregator::prepareRow(const Pass& pass, Sweep& s, int y, int from_row, int from_column) {
+  const int width = pass.cost.width();
   if (pass.options.adaptation != PenaltyAdaptation::kConstant) {
-    const std::uint8_t* here = pass.guide.row(y);
-    const std::uint8_t* there = pass.guide.row(std::clamp(y + from_row, 0, height - 1));
-    const auto fill = [&](Buffer<std::uint32_t>& p2, const std::uint8_t* from, int dx) {
-      // A predecessor outside the image has path costs 0, whose minimum no jump can undercut: any penalty
-      // will do.
-      for (int x = std::max(0, -dx); x < std::min(width, width - dx); ++x)
-        p2[x] = p2_of_step_[std::abs(here[x] - from[x + dx])];
+    // Where there is no predecessor the step is arbitrary: path costs 0 have minimum 0, which no jump
+    // undercuts.
+    const auto fill = [&](Buffer<std::uint32_t>& p2, const std::uint8_t* step, int from, int count) {
+      for (int x = 0; x < count; ++x) p2[x + from] = p2_of_step_[step[x]];
     };
-    fill(s.p2[0], there, -1);
-    fill(s.p2[1], there, 0);
-    fill(s.p2[2], there, 1);
-    fill(s.p2[3], here, from_x);
+    const ColorSteps& steps = pass.steps;
+    const bool down = from_row < 0;
+    const int seam =
+        down ? y : std::min(y + 1, pass.cost.height() - 1);  // the row that holds the steps across it
+    if (down) {
+      fill(s.p2[0], steps.above_left.row(seam), 0, width);
+      fill(s.p2[2], steps.above_right.row(seam), 0, width);
+    } else {  // from (x - 1, y + 1) to (x, y) is the step that (x - 1, y + 1) sees to its upper right
+      fill(s.p2[0], steps.above_right.row(seam), 1, width - 1);
+      fill(s.p2[2], steps.above_left.row(seam) + 1, 0, width - 1);
+    }
+    fill(s.p2[1], steps.above.row(seam), 0, width);
+    if (from_column < 0)
+      fill(s.p2[3], steps.left.row(y), 0, width);
+    else
+      fill(s.p2[3], steps.left.row(y) + 1, 0, width - 1);
   }
   return {.width = width,
           .vectors = pass.cost.range().vectors,
           .diagonals = pass.options.paths == 8,
           .wide_sums = pass.wide,
-          .cost = s.cost.data(),
+          .cost = s.cost.row(y),
           .path = {s.path[0].data(), s.path[1].data(), s.path[2].data()},
           .minima = s.minima.data(),
           .p2 = {s.p2[0].data(), s.p2[1].data(), s.p2[2].data(), s.p2[3].data()},
@@ -98,7 +106,7 @@ AggregateRow Aggregator::prepareRow(const Pass& pass, Sweep& s, int y, int from_
 
 void Aggregator::firstPass(const Pass& pass, int which) {
   Sweep& s = sweep_[which];
-  reset(s, pass.cost.width(), pass.cost.range().lanes());
+  reset(pass, s);
   if (which == 0)
     for (int y = 0; y < pass.middle(); ++y) pass.kernels.aggregateFirst(prepareRow(pass, s, y, -1, -1));
   else
@@ -138,11 +146,10 @@ void Aggregator::lastPass(const Pass& pass, int which, WinnerMaps& out) {
     for (int y = pass.middle() - 1; y >= 0; --y) complete(y, 1);
 }
 
-void Aggregator::run(const MatchingCostRows& cost, ImageView<const std::uint8_t> guide,
-                     const AggregationOptions& options, const SgmKernels& kernels, WinnerMaps& out,
-                     int threads) {
+void Aggregator::run(const MatchingCostRows& cost, const ColorSteps& steps, const AggregationOptions& options,
+                     const SgmKernels& kernels, WinnerMaps& out, int threads) {
   const DisparityRange& range = cost.range();
-  const Pass pass{cost, guide, options, kernels, options.p2 > 63};
+  const Pass pass{cost, steps, options, kernels, options.p2 > 63};
   for (int step = 0; step < 256; ++step) p2_of_step_[step] = quad(adaptedPenalty(options, step));
 
   const int lanes = range.lanes();

@@ -24,24 +24,24 @@ struct WinnerMaps {
 /// one barrier, and every pixel's sum is the same whoever computed it.
 class Aggregator {
  public:
-  /// `guide`: 8-bit gray left image, the source of P2 adaptation.
-  void run(const MatchingCostRows& cost, ImageView<const std::uint8_t> guide,
-           const AggregationOptions& options, const SgmKernels& kernels, WinnerMaps& out, int threads);
+  /// `steps`: of the left image, the source of P2 adaptation.
+  void run(const MatchingCostRows& cost, const ColorSteps& steps, const AggregationOptions& options,
+           const SgmKernels& kernels, WinnerMaps& out, int threads);
 
  private:
   struct Sweep {
     std::array<Buffer<std::uint8_t>, 3> path;
     Buffer<std::uint32_t> minima;
-    Buffer<std::uint8_t> cost;
+    CostRowReader cost;
     Buffer<std::uint16_t> recent_sums;
     std::array<Buffer<std::uint32_t>, 4> p2;
   };
   struct Pass;
 
-  void reset(Sweep& sweep, int width, int lanes);
+  void reset(const Pass& pass, Sweep& sweep);
   void firstPass(const Pass& pass, int which);
   void lastPass(const Pass& pass, int which, WinnerMaps& out);
-  AggregateRow prepareRow(const Pass& pass, Sweep& sweep, int y, int from_row, int from_x);
+  AggregateRow prepareRow(const Pass& pass, Sweep& sweep, int y, int from_row, int from_column);
 
   std::array<Sweep, 2> sweep_;
   Buffer<std::uint8_t> sums_;

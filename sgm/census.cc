@@ -33,6 +33,15 @@ constexpr Window fullWindow(int width, int height) {
   return w;
 }
 
+/// Every second neighbour against the centre, as on the fields of one colour.
+constexpr Window checkerboardWindow(int width, int height) {
+  Window w;
+  for (int dy = -height / 2; dy <= height / 2; ++dy)
+    for (int dx = -width / 2; dx <= width / 2; ++dx)
+      if ((dx != 0 || dy != 0) && (dx + dy) % 2 == 0) w.add({dx, dy}, {0, 0});
+  return w;
+}
+
 /// Every neighbour against the one opposite the centre.
 constexpr Window centerSymmetricWindow(int width, int height) {
   Window w;
@@ -44,7 +53,8 @@ constexpr Window centerSymmetricWindow(int width, int height) {
 
 const Window& windowOf(MatchingCost cost) {
   static constexpr Window k5x5 = fullWindow(5, 5), k7x7 = fullWindow(7, 7), k9x7 = fullWindow(9, 7),
-                          kSymmetric9x7 = centerSymmetricWindow(9, 7);
+                          kSymmetric9x7 = centerSymmetricWindow(9, 7),
+                          kCheckerboard9x7 = checkerboardWindow(9, 7);
   switch (cost) {
     case MatchingCost::kCensus5x5:
       return k5x5;
@@ -54,6 +64,8 @@ const Window& windowOf(MatchingCost cost) {
       return k9x7;
     case MatchingCost::kCenterSymmetricCensus9x7:
       return kSymmetric9x7;
+    case MatchingCost::kBlended:
+      return kCheckerboard9x7;
     case MatchingCost::kMutualInformation:
       break;
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 
 #include "core/parallel.h"
 
@@ -11,12 +12,16 @@ DisparityRange makeRange(int min_disparity, int disparities, const SgmKernels& k
   return {min_disparity, disparities, vectorsFor(disparities, kernels.vector_bytes), kernels.vector_bytes};
 }
 
-void MatchingCostRows::layOut(int width, int height, int planes, int maximum_cost,
-                              const DisparityRange& range) {
+void MatchingCostRows::prepare(Kind kind, const Features& left, int width, int height, int planes,
+                               int maximum_cost, const DisparityRange& range, const SgmKernels& kernels) {
+  kind_ = kind;
+  left_ = left;
   width_ = width;
   height_ = height;
   planes_ = planes;
   range_ = range;
+  kernels_ = &kernels;
+  supported_ = false;
 
   padding_.resize(range.lanes());
   for (int d = 0; d < range.lanes(); ++d) {
@@ -47,44 +52,102 @@ void MatchingCostRows::stripeRow(const std::uint8_t* right, int y, int plane) {
   }
 }
 
-StripedRow MatchingCostRows::striped(int y) const {
-  return {striped_.data() + y * row_stride_, phase_stride_, plane_stride_};
-}
-
-void MatchingCostRows::prepareCensus(const CensusPlanes& left, const CensusPlanes& right, int maximum_cost,
-                                     const DisparityRange& range, const SgmKernels& kernels, int threads) {
-  layOut(left.plane[0].width(), left.plane[0].height(), left.planes, maximum_cost, range);
-  kernels_ = &kernels;
-  left_codes_ = &left;
+void MatchingCostRows::stripe(std::span<const ImageView<const std::uint8_t>> right, int threads) {
   parallelStrips(threads, height_, 16, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
-      for (int p = 0; p < planes_; ++p) stripeRow(right.plane[p].row(y), y, p);
+      for (std::size_t p = 0; p < right.size(); ++p) stripeRow(right[p].row(y), y, static_cast<int>(p));
   });
 }
 
-void MatchingCostRows::prepareTable(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,
+void MatchingCostRows::prepareCensus(const Features& left, const Features& right, int maximum_cost,
+                                     const DisparityRange& range, const SgmKernels& kernels, int threads) {
+  const CensusPlanes& codes = *right.census;
+  prepare(Kind::kCensus, left, codes.plane[0].width(), codes.plane[0].height(), codes.planes, maximum_cost,
+          range, kernels);
+  ImageView<const std::uint8_t> planes[kMaxCensusPlanes];
+  for (int p = 0; p < codes.planes; ++p) planes[p] = codes.plane[p].view();
+  stripe({planes, static_cast<std::size_t>(codes.planes)}, threads);
+}
+
+void MatchingCostRows::prepareBlended(const Features& left, const Features& right, int maximum_cost,
+                                      const DisparityRange& range, const SgmKernels& kernels, int threads) {
+  prepare(Kind::kBlended, left, right.gray.width, right.gray.height, kBlendedPlanes, maximum_cost, range,
+          kernels);
+  const auto& codes = right.census->plane;
+  const ImageView<const std::uint8_t> planes[kBlendedPlanes] = {
+      codes[0].view(), codes[1].view(), codes[2].view(), codes[3].view(), right.sobel, right.gray};
+  stripe(planes, threads);
+}
+
+void MatchingCostRows::prepareTable(const Features& left, const Features& right,
                                     std::span<const std::uint8_t, 65536> table, int maximum_cost,
                                     const DisparityRange& range, const SgmKernels& kernels, int threads) {
-  layOut(left.width, left.height, 1, maximum_cost, range);
-  kernels_ = &kernels;
-  left_codes_ = nullptr;
-  left_gray_ = left;
+  prepare(Kind::kTable, left, right.gray.width, right.gray.height, 1, maximum_cost, range, kernels);
   table_.resize(table.size());
   std::copy(table.begin(), table.end(), table_.data());
+  stripe({&right.gray, 1}, threads);
+}
+
+void MatchingCostRows::prepareSupport(const ColorSteps& steps, int color_step, int threads) {
+  supported_ = color_step > 0;
+  if (!supported_) return;
+  arms_.resize(width_, height_);
   parallelStrips(threads, height_, 16, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) stripeRow(right.row(y), y, 0);
+    for (int y = begin; y < end; ++y) {
+      const std::uint8_t *left = steps.left.row(y), *above = steps.above.row(y);
+      const std::uint8_t* below = steps.above.row(std::min(y + 1, height_ - 1));
+      std::uint8_t* arms = arms_.row(y);
+      const bool has_above = y > 0, has_below = y + 1 < height_;
+      for (int x = 0; x < width_; ++x)
+        arms[x] =
+            static_cast<std::uint8_t>((left[x] < color_step) | (has_above & (above[x] < color_step)) << 2 |
+                                      (has_below & (below[x] < color_step)) << 3);
+      arms[0] &= ~1;
+      for (int x = 0; x + 1 < width_; ++x) arms[x] |= static_cast<std::uint8_t>((arms[x + 1] & 1) << 1);
+    }
   });
 }
 
 void MatchingCostRows::row(int y, std::uint8_t* cost) const {
-  if (left_codes_) {
-    CensusCostRow r{width_, range_.vectors, planes_, {}, striped(y), padding_.data(), cost};
-    for (int p = 0; p < planes_; ++p) r.left[p] = left_codes_->plane[p].row(y);
-    kernels_->censusCost(r);
-  } else {
+  const StripedRow right{striped_.data() + y * row_stride_, phase_stride_, plane_stride_};
+  if (kind_ == Kind::kTable) {
     kernels_->tableCost(
-        {width_, range_.vectors, left_gray_.row(y), striped(y), table_.data(), padding_.data(), cost});
+        {width_, range_.vectors, left_.gray.row(y), right, table_.data(), padding_.data(), cost});
+    return;
   }
+  CensusCostRow r{width_, range_.vectors, left_.census->planes, {}, right, padding_.data(), cost};
+  for (int p = 0; p < r.planes; ++p) r.left[p] = left_.census->plane[p].row(y);
+  if (kind_ == Kind::kBlended)
+    kernels_->blendedCost({r, left_.sobel.row(y), left_.gray.row(y)});
+  else
+    kernels_->censusCost(r);
+}
+
+void CostRowReader::start(const MatchingCostRows& cost) {
+  cost_ = &cost;
+  const std::size_t bytes = static_cast<std::size_t>(cost.width_) * cost.range_.lanes();
+  for (auto& raw : raw_) {
+    raw.y = -1;
+    raw.cost.resize(bytes);
+  }
+  averaged_.resize(bytes);
+}
+
+const std::uint8_t* CostRowReader::rawRow(int y) {
+  auto& raw = raw_[y % 3];
+  if (raw.y != y) cost_->row(y, raw.cost.data());
+  raw.y = y;
+  return raw.cost.data();
+}
+
+const std::uint8_t* CostRowReader::row(int y) {
+  const std::uint8_t* here = rawRow(y);
+  if (!cost_->supported_) return here;
+  const std::uint8_t* above = y > 0 ? rawRow(y - 1) : here;
+  const std::uint8_t* below = y + 1 < cost_->height_ ? rawRow(y + 1) : here;
+  cost_->kernels_->support(
+      {cost_->width_, cost_->range_.vectors, above, here, below, cost_->arms_.row(y), averaged_.data()});
+  return averaged_.data();
 }
 
 }  // namespace pomona

@@ -6,6 +6,7 @@
 
 #include "core/image.h"
 #include "sgm/census.h"
+#include "sgm/color_steps.h"
 #include "sgm/kernels.h"
 
 namespace pomona {
@@ -22,38 +23,72 @@ struct DisparityRange {
 DisparityRange makeRange(int min_disparity, int disparities, const SgmKernels& kernels);
 
 /// Features of both views, laid out for the kernels. cost(p, d) compares left(x, y) with right(x - d, y);
-/// columns beyond the right image are those of its border.
+/// columns beyond the right image are those of its border. The left features are borrowed and must outlive
+/// the matching.
 class MatchingCostRows {
  public:
-  /// Census: Hamming distance of the codes, 0 .. number of bits.
-  void prepareCensus(const CensusPlanes& left, const CensusPlanes& right, int maximum_cost,
+  struct Features {
+    const CensusPlanes* census = nullptr;
+    ImageView<const std::uint8_t> sobel, gray;
+  };
+  /// Hamming distance of the codes, 0 .. number of bits.
+  void prepareCensus(const Features& left, const Features& right, int maximum_cost,
                      const DisparityRange& range, const SgmKernels& kernels, int threads);
+  /// See BlendedCostRow; needs every feature.
+  void prepareBlended(const Features& left, const Features& right, int maximum_cost,
+                      const DisparityRange& range, const SgmKernels& kernels, int threads);
   /// table[256 * left + right] is the cost of a pair of gray values, 0 .. maximum_cost.
-  void prepareTable(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,
-                    std::span<const std::uint8_t, 65536> table, int maximum_cost, const DisparityRange& range,
-                    const SgmKernels& kernels, int threads);
+  void prepareTable(const Features& left, const Features& right, std::span<const std::uint8_t, 65536> table,
+                    int maximum_cost, const DisparityRange& range, const SgmKernels& kernels, int threads);
+  /// Afterwards CostRowReader averages over neighbours whose colour step is below `color_step`; 0: over none.
+  /// Call after one of the above.
+  void prepareSupport(const ColorSteps& steps, int color_step, int threads);
 
   int width() const { return width_; }
   int height() const { return height_; }
   const DisparityRange& range() const { return range_; }
 
-  /// Costs of row y in striped order: width * range().lanes() bytes on a 64-byte boundary.
+ private:
+  friend class CostRowReader;
+  enum class Kind { kCensus, kBlended, kTable };
+
+  void prepare(Kind kind, const Features& left, int width, int height, int planes, int maximum_cost,
+               const DisparityRange& range, const SgmKernels& kernels);
+  void stripe(std::span<const ImageView<const std::uint8_t>> right, int threads);
+  void stripeRow(const std::uint8_t* right, int y, int plane);
   void row(int y, std::uint8_t* cost) const;
 
- private:
-  void layOut(int width, int height, int planes, int maximum_cost, const DisparityRange& range);
-  void stripeRow(const std::uint8_t* right, int y, int plane);
-  StripedRow striped(int y) const;
-
+  Kind kind_ = Kind::kCensus;
   int width_ = 0, height_ = 0, planes_ = 0;
   DisparityRange range_;
   const SgmKernels* kernels_ = nullptr;
-  const CensusPlanes* left_codes_ = nullptr;  // census
-  ImageView<const std::uint8_t> left_gray_;   // table
+  Features left_;
   Buffer<std::uint8_t> table_;
   Buffer<std::uint8_t> padding_;
   Buffer<std::uint8_t> striped_;  // every row of the right view, every plane, every phase
   std::ptrdiff_t phase_stride_ = 0, plane_stride_ = 0, row_stride_ = 0;
+  bool supported_ = false;
+  Image<std::uint8_t> arms_;  // see SupportRow
+};
+
+/// Walks the cost rows for one sweep; keeps what neighbouring rows share.
+class CostRowReader {
+ public:
+  void start(const MatchingCostRows& cost);
+
+  /// Costs of row y in striped order: width * range().lanes() bytes on a 64-byte boundary, valid until the
+  /// next call. Cheapest for rows in sequence.
+  const std::uint8_t* row(int y);
+
+ private:
+  const std::uint8_t* rawRow(int y);
+
+  const MatchingCostRows* cost_ = nullptr;
+  struct {
+    int y = -1;
+    Buffer<std::uint8_t> cost;
+  } raw_[3];
+  Buffer<std::uint8_t> averaged_;
 };
 
 }  // namespace pomona

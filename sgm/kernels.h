@@ -19,6 +19,7 @@ enum class Isa;  // core/cpu.h; kernels see no standard library
 
 constexpr int kMaxDisparities = 1024;
 constexpr int kMaxCensusPlanes = 8;
+constexpr int kBlendedPlanes = 6;  // of the right view: census, Sobel, gray
 
 /// Right-image bytes of one row, reversed and dealt out to `vectors` phases: with t = width - 1 - x + d, byte
 /// t / vectors of phase t % vectors belongs to column x - min_disparity - d, clamped to the image.
@@ -34,6 +35,26 @@ struct CensusCostRow {
   StripedRow right;
   const std::uint8_t* padding;  ///< vectors * kBytes: the maximum cost in padded lanes, 0 elsewhere
   std::uint8_t* cost;           ///< out: width * vectors * kBytes
+};
+
+/// Census beside two truncated absolute differences:
+///   C = hamming + (min(20, |S_left - S_right|) + min(40, |I_left - I_right|) / 4) / 2      (quotients
+///   rounded up)
+/// with S the clamped horizontal Sobel response (see sobelRow) and I the gray value: 0 .. 30 + 15.
+struct BlendedCostRow {
+  CensusCostRow census;       ///< 4 planes; its `right` goes on with a Sobel plane and a gray plane
+  const std::uint8_t* sobel;  ///< left
+  const std::uint8_t* gray;   ///< left
+};
+
+/// Costs averaged over a pixel (weight 1/4) and its four neighbours (3/16 each); a neighbour that does not
+/// belong is replaced by the pixel itself. Rounded up at each of the five halvings.
+struct SupportRow {
+  int width, vectors;
+  const std::uint8_t *above, *here,
+      *below;                ///< cost rows; above and below may be anything where no pixel uses them
+  const std::uint8_t* arms;  ///< per pixel: bit 0 left, 1 right, 2 above, 3 below belongs
+  std::uint8_t* cost;
 };
 
 struct TableCostRow {
@@ -88,8 +109,16 @@ struct SgmKernels {
                   std::uint8_t* out);
   void (*census16)(const std::uint16_t* const a[8], const std::uint16_t* const b[8], int width,
                    std::uint8_t* out);
+  /// out[x] = clamp(128 + S / 4, 0, 255), S the 3x3 horizontal Sobel sum over three rows readable from -1 to
+  /// width.
+  void (*sobel)(const std::uint8_t* const rows[3], int width, std::uint8_t* out);
+  /// out[x] = largest |a - b| over the channels (1 or 3, interleaved) of pixel x.
+  void (*colorSteps)(const std::uint8_t* a, const std::uint8_t* b, int channels, int width,
+                     std::uint8_t* out);
   void (*censusCost)(const CensusCostRow&);
   void (*tableCost)(const TableCostRow&);
+  void (*blendedCost)(const BlendedCostRow&);
+  void (*support)(const SupportRow&);
   /// Left to right; leaves the partial sums of its paths.
   void (*aggregateFirst)(const AggregateRow&);
   /// Right to left; completes the sums and picks the winners of both views.

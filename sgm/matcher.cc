@@ -71,26 +71,39 @@ void MatchMaps::resize(int width, int height) {
   state.resize(width, height);
 }
 
-void SgmMatcher::match(const GrayPair& pair, const MatchOptions& options, std::span<const std::uint8_t> table,
-                       const SgmKernels& kernels, MatchMaps& out, int threads) {
+MatchingCostRows::Features SgmMatcher::extract(ImageView<const std::uint8_t> gray,
+                                               ImageView<const std::uint16_t> gray16, MatchingCost cost,
+                                               View& view, const SgmKernels& kernels, int threads) {
+  if (cost != MatchingCost::kMutualInformation) {
+    if (gray16.empty())
+      census_.compute(gray, cost, view.census, kernels, threads);
+    else
+      census16_.compute(gray16, cost, view.census, kernels, threads);
+  }
+  if (cost == MatchingCost::kBlended) sobel_.compute(gray, view.sobel, kernels, threads);
+  return {&view.census, view.sobel.view(), gray};
+}
+
+void SgmMatcher::match(const MatchInput& pair, const MatchOptions& options,
+                       std::span<const std::uint8_t> table, const SgmKernels& kernels, MatchMaps& out,
+                       int threads) {
   const MatchingCost kind = options.cost.cost;
   const int width = pair.left.width, height = pair.left.height;
   const DisparityRange range = makeRange(options.min_disparity, options.disparities, kernels);
 
-  if (kind == MatchingCost::kMutualInformation) {
-    cost_.prepareTable(pair.left, pair.right, table.first<65536>(), maximumCost(kind), range, kernels,
-                       threads);
-  } else {
-    if (pair.isDeep()) {
-      census16_.compute(pair.left16, kind, left_codes_, kernels, threads);
-      census16_.compute(pair.right16, kind, right_codes_, kernels, threads);
-    } else {
-      census_.compute(pair.left, kind, left_codes_, kernels, threads);
-      census_.compute(pair.right, kind, right_codes_, kernels, threads);
-    }
-    cost_.prepareCensus(left_codes_, right_codes_, maximumCost(kind), range, kernels, threads);
-  }
-  aggregator_.run(cost_, pair.left, options.aggregation, kernels, winners_, threads);
+  const auto left = extract(pair.left, pair.left16, kind, left_, kernels, threads);
+  const auto right = extract(pair.right, pair.right16, kind, right_, kernels, threads);
+  if (kind == MatchingCost::kMutualInformation)
+    cost_.prepareTable(left, right, table.first<65536>(), maximumCost(kind), range, kernels, threads);
+  else if (kind == MatchingCost::kBlended)
+    cost_.prepareBlended(left, right, maximumCost(kind), range, kernels, threads);
+  else
+    cost_.prepareCensus(left, right, maximumCost(kind), range, kernels, threads);
+
+  const bool adapts = options.aggregation.adaptation != PenaltyAdaptation::kConstant;
+  if (adapts || options.cost.support_color_step > 0) steps_.compute(pair.guide, kernels, threads);
+  cost_.prepareSupport(steps_, options.cost.support_color_step, threads);
+  aggregator_.run(cost_, steps_, options.aggregation, kernels, winners_, threads);
 
   out.resize(width, height);
   parallelStrips(threads, height, 16, [&](int begin, int end) {

@@ -8,15 +8,18 @@
 #include "pomona/options.h"
 #include "sgm/aggregation.h"
 #include "sgm/census.h"
+#include "sgm/color_steps.h"
 #include "sgm/cost.h"
+#include "sgm/sobel.h"
 
 namespace pomona {
 
-/// A rectified gray pair. The 8-bit views are always there; where the 16-bit ones are, census uses them
+/// A rectified pair. The 8-bit gray views are always there; where the 16-bit ones are, census uses them
 /// instead.
-struct GrayPair {
+struct MatchInput {
   ImageView<const std::uint8_t> left, right;
   ImageView<const std::uint16_t> left16, right16;
+  GuideView guide;  ///< the left view with its colours: steers penalties and supports
 
   bool isDeep() const { return !left16.empty(); }
 };
@@ -42,13 +45,23 @@ struct MatchMaps {
 class SgmMatcher {
  public:
   /// `table`: for kMutualInformation, the cost of every pair of 8-bit values (see mutual_information.h).
-  void match(const GrayPair& pair, const MatchOptions& options, std::span<const std::uint8_t> table,
+  void match(const MatchInput& pair, const MatchOptions& options, std::span<const std::uint8_t> table,
              const SgmKernels& kernels, MatchMaps& out, int threads);
 
  private:
+  struct View {
+    CensusPlanes census;
+    Image<std::uint8_t> sobel;
+  };
+  MatchingCostRows::Features extract(ImageView<const std::uint8_t> gray,
+                                     ImageView<const std::uint16_t> gray16, MatchingCost cost, View& view,
+                                     const SgmKernels& kernels, int threads);
+
   CensusTransform<std::uint8_t> census_;
   CensusTransform<std::uint16_t> census16_;
-  CensusPlanes left_codes_, right_codes_;
+  SobelFilter sobel_;
+  View left_, right_;
+  ColorSteps steps_;
   MatchingCostRows cost_;
   Aggregator aggregator_;
   WinnerMaps winners_;

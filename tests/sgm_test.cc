@@ -102,12 +102,27 @@ void expectEqual(const WinnerMaps& got, const reference::Match& want, const std:
     }
 }
 
+/// A colour image full of steps, large and small, to steer penalties and supports.
+Image<std::uint8_t> makeGuide(int width, int height) {
+  Image<std::uint8_t> guide(3 * width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < 3 * width; ++x) {
+      const std::uint32_t h = hash(static_cast<std::uint32_t>(y * 7001 + x));
+      guide.row(y)[x] = static_cast<std::uint8_t>(h % 4 == 0 ? h >> 8 : 100 + (h >> 8) % 12);
+    }
+  return guide;
+}
+
+GuideView colorView(const Image<std::uint8_t>& guide) {
+  return {guide.row(0), guide.width() / 3, guide.height(), 3, guide.view().stride};
+}
+
 template <typename T>
 void compareWithTextbook(const Setup& s) {
   const TestPair<T> pair = makePair<T>(s.width, s.height, s.content);
-  const TestPair<std::uint8_t> guide = makePair<std::uint8_t>(s.width, s.height, Content::kNoise);
+  const Image<std::uint8_t> guide = makeGuide(s.width, s.height);
   const reference::Match want =
-      reference::matchCensus<T>(pair.left.view(), pair.right.view(), guide.left.view(), s.cost, s.aggregation,
+      reference::matchCensus<T>(pair.left.view(), pair.right.view(), colorView(guide), s.cost, s.aggregation,
                                 s.min_disparity, s.disparities);
   for (Isa isa : usableIsas())
     for (int threads : {1, 2, 7}) {
@@ -116,12 +131,14 @@ void compareWithTextbook(const Setup& s) {
       CensusPlanes left, right;
       transform.compute(pair.left.view(), s.cost, left, kernels, threads);
       transform.compute(pair.right.view(), s.cost, right, kernels, threads);
+      ColorSteps steps;
+      steps.compute(colorView(guide), kernels, threads);
       MatchingCostRows cost;
-      cost.prepareCensus(left, right, maximumCost(s.cost), makeRange(s.min_disparity, s.disparities, kernels),
-                         kernels, threads);
+      cost.prepareCensus({&left, {}, {}}, {&right, {}, {}}, maximumCost(s.cost),
+                         makeRange(s.min_disparity, s.disparities, kernels), kernels, threads);
       Aggregator aggregator;
       WinnerMaps winners;
-      aggregator.run(cost, guide.left.view(), s.aggregation, kernels, winners, threads);
+      aggregator.run(cost, steps, s.aggregation, kernels, winners, threads);
       expectEqual(winners, want, describe(s, isa, threads));
       if (testing::Test::HasFatalFailure()) return;
     }
@@ -175,44 +192,92 @@ TEST(Sgm, EqualsTextbookForTheWidestRange) {
   compareWithTextbook<std::uint8_t>({1030, 2, 1024, 0, MatchingCost::kCensus5x5, kSoft, Content::kShifted});
 }
 
+TEST(Sgm, BlendedCostWithSupportEqualsTextbook) {
+  for (Content content : {Content::kNoise, Content::kShifted, Content::kCheckerboard, Content::kStep})
+    for (int step : {0, 8, 255})
+      for (auto [width, height] : {std::pair{1, 1}, {5, 3}, {70, 14}}) {
+        const int disparities = std::min(width, 66), from = width > 50 ? -2 : 0;
+        const TestPair<std::uint8_t> pair = makePair<std::uint8_t>(width, height, content);
+        const Image<std::uint8_t> guide = makeGuide(width, height);
+        auto cost_of = reference::blendedCost(pair.left.view(), pair.right.view(), from);
+        if (step > 0) cost_of = reference::supported(cost_of, colorView(guide), step);
+        const reference::Match want = reference::match(
+            {width, height, disparities, from, 8, kSoft.p1, cost_of, [&](int y, int x, int y2, int x2) {
+               return reference::adaptedPenalty(kSoft, reference::colorStep(colorView(guide), y, x, y2, x2));
+             }});
+        for (Isa isa : usableIsas())
+          for (int threads : {1, 2}) {
+            const SgmKernels& kernels = sgmKernels(isa);
+            CensusTransform<std::uint8_t> transform;
+            CensusPlanes codes[2];
+            SobelFilter filter;
+            Image<std::uint8_t> sobel[2];
+            const ImageView<const std::uint8_t> gray[2] = {pair.left.view(), pair.right.view()};
+            for (int i = 0; i < 2; ++i) {
+              transform.compute(gray[i], MatchingCost::kBlended, codes[i], kernels, threads);
+              filter.compute(gray[i], sobel[i], kernels, threads);
+            }
+            ColorSteps steps;
+            steps.compute(colorView(guide), kernels, threads);
+            MatchingCostRows cost;
+            cost.prepareBlended({&codes[0], sobel[0].view(), gray[0]}, {&codes[1], sobel[1].view(), gray[1]},
+                                45, makeRange(from, disparities, kernels), kernels, threads);
+            cost.prepareSupport(steps, step, threads);
+            Aggregator aggregator;
+            WinnerMaps winners;
+            aggregator.run(cost, steps, kSoft, kernels, winners, threads);
+            expectEqual(winners, want,
+                        "blended, " + std::string(name(isa)) + " support " + std::to_string(step) +
+                            " content " + std::to_string(static_cast<int>(content)) + " width " +
+                            std::to_string(width));
+            if (testing::Test::HasFatalFailure()) return;
+          }
+      }
+}
+
 TEST(Sgm, TableCostEqualsTextbook) {
   const TestPair<std::uint8_t> pair = makePair<std::uint8_t>(50, 14, Content::kShifted);
   std::vector<std::uint8_t> table(65536);
   for (int i = 0; i < 65536; ++i)
     table[i] = static_cast<std::uint8_t>(hash(static_cast<std::uint32_t>(i)) % 128);
   const AggregationOptions o{8, 10, 90, 30, PenaltyAdaptation::kInverseIntensity};
+  const GuideView gray{pair.left.row(0), 50, 14, 1, pair.left.view().stride};
   const reference::Match want = reference::match(
       {50, 14, 37, -3, o.paths, o.p1,
        [&](int y, int x, int d) {
          return table[256 * pair.left.row(y)[x] + pair.right.row(y)[std::clamp(x + 3 - d, 0, 49)]];
        },
        [&](int y, int x, int y2, int x2) {
-         return reference::adaptedPenalty(o, std::abs(pair.left.row(y)[x] - pair.left.row(y2)[x2]));
+         return reference::adaptedPenalty(o, reference::colorStep(gray, y, x, y2, x2));
        }});
   for (Isa isa : usableIsas()) {
     const SgmKernels& kernels = sgmKernels(isa);
+    ColorSteps steps;
+    steps.compute(gray, kernels, 1);
     MatchingCostRows cost;
-    cost.prepareTable(pair.left.view(), pair.right.view(), std::span<const std::uint8_t, 65536>(table), 127,
-                      makeRange(-3, 37, kernels), kernels, 1);
+    cost.prepareTable({nullptr, {}, pair.left.view()}, {nullptr, {}, pair.right.view()},
+                      std::span<const std::uint8_t, 65536>(table), 127, makeRange(-3, 37, kernels), kernels,
+                      1);
     Aggregator aggregator;
     WinnerMaps winners;
-    aggregator.run(cost, pair.left.view(), o, kernels, winners, 2);
+    aggregator.run(cost, steps, o, kernels, winners, 2);
     expectEqual(winners, want, "table cost, isa " + std::string(name(isa)));
   }
 }
 
 TEST(Sgm, MatcherRefinesAndMarksAmbiguousPixels) {
   const TestPair<std::uint8_t> pair = makePair<std::uint8_t>(60, 16, Content::kShifted);
-  MatchOptions o{0, 24, {MatchingCost::kCensus5x5}, kSoft, {SubpixelMethod::kNone, 20}};
+  const GuideView guide{pair.left.row(0), 60, 16, 1, pair.left.view().stride};
+  MatchOptions o{0, 24, {MatchingCost::kCensus5x5, 0}, kSoft, {SubpixelMethod::kNone, 20}};
   const reference::Match want = reference::matchCensus<std::uint8_t>(
-      pair.left.view(), pair.right.view(), pair.left.view(), o.cost.cost, o.aggregation, 0, 24);
+      pair.left.view(), pair.right.view(), guide, o.cost.cost, o.aggregation, 0, 24);
   SgmMatcher matcher;
   for (SubpixelMethod method :
        {SubpixelMethod::kNone, SubpixelMethod::kParabola, SubpixelMethod::kEquiangular}) {
     o.winner.subpixel = method;
     MatchMaps maps;
-    matcher.match({pair.left.view(), pair.right.view(), {}, {}}, o, {}, sgmKernels(usableIsas().back()), maps,
-                  2);
+    matcher.match({pair.left.view(), pair.right.view(), {}, {}, guide}, o, {},
+                  sgmKernels(usableIsas().back()), maps, 2);
     int ambiguous = 0;
     for (int y = 0; y < 16; ++y)
       for (int x = 0; x < 60; ++x) {

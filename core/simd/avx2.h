@@ -43,6 +43,9 @@ POMONA_OP U8 min(U8 a, U8 b) {
 POMONA_OP U8 max(U8 a, U8 b) {
   return _mm256_max_epu8(a, b);
 }
+POMONA_OP U8 average(U8 a, U8 b) {
+  return _mm256_avg_epu8(a, b);
+}
 POMONA_OP U8 bitXor(U8 a, U8 b) {
   return _mm256_xor_si256(a, b);
 }

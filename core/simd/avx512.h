@@ -43,6 +43,9 @@ POMONA_OP U8 min(U8 a, U8 b) {
 POMONA_OP U8 max(U8 a, U8 b) {
   return _mm512_max_epu8(a, b);
 }
+POMONA_OP U8 average(U8 a, U8 b) {
+  return _mm512_avg_epu8(a, b);
+}
 POMONA_OP U8 bitXor(U8 a, U8 b) {
   return _mm512_xor_si512(a, b);
 }

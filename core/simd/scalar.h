@@ -67,6 +67,9 @@ POMONA_OP U8 min(U8 a, U8 b) {
 POMONA_OP U8 max(U8 a, U8 b) {
   return eachByte([&](int i) { return a.v[i] > b.v[i] ? a.v[i] : b.v[i]; });
 }
+POMONA_OP U8 average(U8 a, U8 b) {  ///< (a + b + 1) / 2
+  return eachByte([&](int i) { return (a.v[i] + b.v[i] + 1) >> 1; });
+}
 POMONA_OP U8 bitXor(U8 a, U8 b) {
   return eachByte([&](int i) { return a.v[i] ^ b.v[i]; });
 }

@@ -12,16 +12,22 @@ enum class MatchingCost {
   kCensus9x7,                 ///< 62-bit census, cost 0..62
   kCenterSymmetricCensus9x7,  ///< 31-bit centre-symmetric census (Spangenberg et al. 2013), cost 0..31
   kMutualInformation,         ///< hierarchical mutual information (Hirschmueller 2008), cost 0..127
+  kBlended,  ///< 30-bit checkerboard census 9x7 + truncated horizontal Sobel and gray differences, cost 0..45
 };
 
 struct CostOptions {
-  MatchingCost cost = MatchingCost::kCensus9x7;
+  MatchingCost cost = MatchingCost::kBlended;
+  /// Average the costs of a pixel and those of its 4-neighbours whose colour differs by less than this
+  /// (largest channel difference, 8-bit units; Zhang et al. 2009, with arms of one pixel); 0 (off) to 255.
+  int support_color_step = 8;
 };
 
+/// g is the largest channel difference |I(p) - I(q)| between a pixel and its predecessor on the path, 8-bit
+/// units.
 enum class PenaltyAdaptation {
   kConstant,          ///< P2 everywhere
-  kInverseIntensity,  ///< P2' = max(P1, P2 / |I(p) - I(q)|)   (Hirschmueller 2008, below Eq. 13)
-  kSoftIntensity,     ///< P2' = max(p2_min, P2 / (1 + |I(p) - I(q)| / 10))
+  kInverseIntensity,  ///< P2' = max(P1, P2 / g)   (Hirschmueller 2008, below Eq. 13)
+  kSoftIntensity,     ///< P2' = max(p2_min, P2 / (1 + g / 10))
 };
 
 /// Semi-global aggregation. Penalties are in units of the matching cost.

@@ -6,8 +6,10 @@
 
 namespace {
 
+using pomona::BlendedCostRow;
 using pomona::CensusCostRow;
 using pomona::StripedRow;
+using pomona::SupportRow;
 using pomona::TableCostRow;
 
 /// The bytes of vector `vector` of pixel x: columns x - min_disparity - (vectors * lane + vector).
@@ -16,7 +18,17 @@ POMONA_OP const std::uint8_t* rightLanes(const StripedRow& right, int width, int
   return right.data + (t % n) * right.phase_stride + t / n;
 }
 
-/// Hamming distance of the census codes, 0 .. 8 * planes.
+/// Hamming distance of the census codes at vector `right` of the right view, 0 .. 8 * planes.
+template <int kPlanes>
+POMONA_OP simd::U8 hamming(const simd::U8* left, const std::uint8_t* right, std::ptrdiff_t plane_stride) {
+  simd::U8 sum = simd::popcount(simd::bitXor(simd::loadUnaligned(right), left[0]));
+  for (int p = 1; p < kPlanes; ++p) {
+    right += plane_stride;
+    sum = simd::add(sum, simd::popcount(simd::bitXor(simd::loadUnaligned(right), left[p])));
+  }
+  return sum;
+}
+
 template <int kVectors, int kPlanes>
 void censusCostOf(const CensusCostRow& r) {
   const int vectors = kVectors ? kVectors : r.vectors;
@@ -26,15 +38,67 @@ void censusCostOf(const CensusCostRow& r) {
     for (int p = 0; p < kPlanes; ++p) left[p] = simd::broadcast(r.left[p][x]);
     for (int j = 0; j < vectors; ++j, out += simd::kBytes) {
       const std::uint8_t* right = rightLanes(r.right, r.width, vectors, x, j);
-      simd::U8 distance = simd::load(r.padding + j * simd::kBytes);
-      simd::U8 sum = simd::popcount(simd::bitXor(simd::loadUnaligned(right), left[0]));
-      for (int p = 1; p < kPlanes; ++p) {
-        right += r.right.plane_stride;
-        sum = simd::add(sum, simd::popcount(simd::bitXor(simd::loadUnaligned(right), left[p])));
-      }
-      simd::store(out, simd::max(distance, sum));
+      const simd::U8 padding = simd::load(r.padding + j * simd::kBytes);
+      simd::store(out, simd::max(padding, hamming<kPlanes>(left, right, r.right.plane_stride)));
     }
   }
+}
+
+POMONA_OP simd::U8 truncatedDifference(simd::U8 a, simd::U8 b, simd::U8 limit) {
+  return simd::min(simd::sub(simd::max(a, b), simd::min(a, b)), limit);
+}
+
+template <int kVectors>
+void blendedCostOf(const BlendedCostRow& b) {
+  const CensusCostRow& r = b.census;
+  const int vectors = kVectors ? kVectors : r.vectors;
+  const std::ptrdiff_t plane = r.right.plane_stride;
+  const simd::U8 zero = simd::broadcast(0), sobel_limit = simd::broadcast(20),
+                 gray_limit = simd::broadcast(40);
+  std::uint8_t* out = r.cost;
+  for (int x = 0; x < r.width; ++x) {
+    simd::U8 left[4];
+    for (int p = 0; p < 4; ++p) left[p] = simd::broadcast(r.left[p][x]);
+    const simd::U8 sobel = simd::broadcast(b.sobel[x]), gray = simd::broadcast(b.gray[x]);
+    for (int j = 0; j < vectors; ++j, out += simd::kBytes) {
+      const std::uint8_t* right = rightLanes(r.right, r.width, vectors, x, j);
+      const simd::U8 s = truncatedDifference(simd::loadUnaligned(right + 4 * plane), sobel, sobel_limit);
+      const simd::U8 g = truncatedDifference(simd::loadUnaligned(right + 5 * plane), gray, gray_limit);
+      const simd::U8 differences = simd::average(s, simd::average(simd::average(g, zero), zero));
+      const simd::U8 cost = simd::add(hamming<4>(left, right, plane), differences);
+      simd::store(out, simd::max(simd::load(r.padding + j * simd::kBytes), cost));
+    }
+  }
+}
+
+void blendedCost(const BlendedCostRow& r) {
+  withVectors(r.census.vectors, [&](auto v) { blendedCostOf<decltype(v)::value>(r); });
+}
+
+template <int kVectors>
+void supportOf(const SupportRow& r) {
+  const int vectors = kVectors ? kVectors : r.vectors;
+  const std::ptrdiff_t pixel = static_cast<std::ptrdiff_t>(vectors) * simd::kBytes;
+  for (int x = 0; x < r.width; ++x) {
+    const std::ptrdiff_t at = x * pixel;
+    const std::uint8_t* here = r.here + at;
+    const std::uint8_t* left = r.arms[x] & 1 ? here - pixel : here;
+    const std::uint8_t* right = r.arms[x] & 2 ? here + pixel : here;
+    const std::uint8_t* above = r.arms[x] & 4 ? r.above + at : here;
+    const std::uint8_t* below = r.arms[x] & 8 ? r.below + at : here;
+    for (int j = 0; j < vectors; ++j) {
+      const int k = j * simd::kBytes;
+      const simd::U8 horizontal = simd::average(simd::load(left + k), simd::load(right + k));
+      const simd::U8 vertical = simd::average(simd::load(above + k), simd::load(below + k));
+      const simd::U8 neighbours = simd::average(horizontal, vertical);
+      simd::store(r.cost + at + k,
+                  simd::average(neighbours, simd::average(neighbours, simd::load(here + k))));
+    }
+  }
+}
+
+void support(const SupportRow& r) {
+  withVectors(r.vectors, [&](auto v) { supportOf<decltype(v)::value>(r); });
 }
 
 void censusCost(const CensusCostRow& r) {

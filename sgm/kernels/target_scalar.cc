@@ -1,11 +1,19 @@
 #include "core/simd/scalar.h"
 #include "sgm/kernels/aggregate.inl"
-#include "sgm/kernels/census.inl"
 #include "sgm/kernels/cost.inl"
+#include "sgm/kernels/features.inl"
 
 namespace pomona {
 extern const SgmKernels kSgmKernelsScalar;
-const SgmKernels kSgmKernelsScalar = {
-    simd::kBytes, censusRow<std::uint8_t>, censusRow<std::uint16_t>, censusCost, tableCost, aggregateFirst,
-    aggregateLast};
+const SgmKernels kSgmKernelsScalar = {simd::kBytes,
+                                      censusRow<std::uint8_t>,
+                                      censusRow<std::uint16_t>,
+                                      sobelRow,
+                                      colorStepRow,
+                                      censusCost,
+                                      tableCost,
+                                      blendedCost,
+                                      support,
+                                      aggregateFirst,
+                                      aggregateLast};
 }  // namespace pomona

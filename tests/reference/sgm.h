@@ -133,20 +133,76 @@ inline int adaptedPenalty(const AggregationOptions& o, int step) {
   return o.p2;
 }
 
+/// Largest channel difference between two pixels.
+inline int colorStep(GuideView g, int y, int x, int y2, int x2) {
+  int step = 0;
+  for (int c = 0; c < g.channels; ++c)
+    step = std::max(step, std::abs(g.row(y)[x * g.channels + c] - g.row(y2)[x2 * g.channels + c]));
+  return step;
+}
+
+/// Costs of the checkerboard census, the Sobel and the gray difference.
+inline std::function<int(int, int, int)> blendedCost(ImageView<const std::uint8_t> left,
+                                                     ImageView<const std::uint8_t> right, int min_disparity) {
+  const auto bits = [](ImageView<const std::uint8_t> image) {
+    const auto pixel = [&](int y, int x) {
+      return image.at(std::clamp(y, 0, image.height - 1), std::clamp(x, 0, image.width - 1));
+    };
+    std::vector<std::pair<std::uint64_t, int>> features;  // census, Sobel
+    for (int y = 0; y < image.height; ++y)
+      for (int x = 0; x < image.width; ++x) {
+        std::uint64_t code = 0;
+        for (int dy = -3; dy <= 3; ++dy)
+          for (int dx = -4; dx <= 4; ++dx)
+            if (std::abs(dx + dy) % 2 == 0 && (dx != 0 || dy != 0))
+              code = (code << 1) | static_cast<std::uint64_t>(pixel(y + dy, x + dx) < pixel(y, x));
+        const int sobel = pixel(y - 1, x + 1) - pixel(y - 1, x - 1) +
+                          2 * (pixel(y, x + 1) - pixel(y, x - 1)) + pixel(y + 1, x + 1) - pixel(y + 1, x - 1);
+        features.emplace_back(code, std::clamp(128 + static_cast<int>(std::floor(sobel / 4.0)), 0, 255));
+      }
+    return features;
+  };
+  const int width = left.width;
+  return [=, l = bits(left), r = bits(right)](int y, int x, int d) {
+    const int from = std::clamp(x - min_disparity - d, 0, width - 1);
+    const auto &p = l[y * width + x], &q = r[y * width + from];
+    const auto half = [](int v) { return (v + 1) / 2; };
+    const int sobel = std::min(20, std::abs(p.second - q.second));
+    const int gray = std::min(40, std::abs(left.at(y, x) - right.at(y, from)));
+    return std::popcount(p.first ^ q.first) + half(sobel + half(half(gray)));
+  };
+}
+
+/// The mean over a pixel and its similar neighbours, rounded up at every halving.
+inline std::function<int(int, int, int)> supported(std::function<int(int, int, int)> cost, GuideView guide,
+                                                   int step) {
+  return [=](int y, int x, int d) {
+    const auto half = [](int v) { return (v + 1) / 2; };
+    const auto neighbour = [&](int dy, int dx) {
+      const int y2 = y + dy, x2 = x + dx;
+      const bool belongs = y2 >= 0 && y2 < guide.height && x2 >= 0 && x2 < guide.width &&
+                           colorStep(guide, y, x, y2, x2) < step;
+      return belongs ? cost(y2, x2, d) : cost(y, x, d);
+    };
+    const int four =
+        half(half(neighbour(0, -1) + neighbour(0, 1)) + half(neighbour(-1, 0) + neighbour(1, 0)));
+    return half(four + half(four + cost(y, x, d)));
+  };
+}
+
 /// The whole matcher on census costs.
 template <typename T>
-Match matchCensus(ImageView<const T> left, ImageView<const T> right, ImageView<const std::uint8_t> guide,
-                  MatchingCost cost, const AggregationOptions& o, int min_disparity, int disparities) {
+Match matchCensus(ImageView<const T> left, ImageView<const T> right, GuideView guide, MatchingCost cost,
+                  const AggregationOptions& o, int min_disparity, int disparities) {
   const std::vector<std::uint64_t> l = census(left, cost), r = census(right, cost);
   const int width = left.width;
-  return match({width, left.height, disparities, min_disparity, o.paths, o.p1,
-                [&](int y, int x, int d) {
-                  const int from = std::clamp(x - min_disparity - d, 0, width - 1);
-                  return std::popcount(l[y * width + x] ^ r[y * width + from]);
-                },
-                [&](int y, int x, int y2, int x2) {
-                  return adaptedPenalty(o, std::abs(guide.at(y, x) - guide.at(y2, x2)));
-                }});
+  return match(
+      {width, left.height, disparities, min_disparity, o.paths, o.p1,
+       [&](int y, int x, int d) {
+         const int from = std::clamp(x - min_disparity - d, 0, width - 1);
+         return std::popcount(l[y * width + x] ^ r[y * width + from]);
+       },
+       [&](int y, int x, int y2, int x2) { return adaptedPenalty(o, colorStep(guide, y, x, y2, x2)); }});
 }
 
 }  // namespace pomona::reference

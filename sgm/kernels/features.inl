@@ -1,0 +1,53 @@
+// Per-pixel features. GCC vectorises these loops as they stand.
+#pragma once
+
+#include <cstdint>
+
+namespace {
+
+/// Eight comparisons per pixel, packed into a byte.
+template <typename T>
+void censusRow(const T* const a[8], const T* const b[8], int width, std::uint8_t* __restrict out) {
+  const T *a0 = a[0], *a1 = a[1], *a2 = a[2], *a3 = a[3], *a4 = a[4], *a5 = a[5], *a6 = a[6], *a7 = a[7];
+  const T *b0 = b[0], *b1 = b[1], *b2 = b[2], *b3 = b[3], *b4 = b[4], *b5 = b[5], *b6 = b[6], *b7 = b[7];
+  for (int x = 0; x < width; ++x) {
+    std::uint8_t code = a0[x] < b0[x] ? 1 : 0;
+    code |= a1[x] < b1[x] ? 2 : 0;
+    code |= a2[x] < b2[x] ? 4 : 0;
+    code |= a3[x] < b3[x] ? 8 : 0;
+    code |= a4[x] < b4[x] ? 16 : 0;
+    code |= a5[x] < b5[x] ? 32 : 0;
+    code |= a6[x] < b6[x] ? 64 : 0;
+    code |= a7[x] < b7[x] ? 128 : 0;
+    out[x] = code;
+  }
+}
+
+void sobelRow(const std::uint8_t* const rows[3], int width, std::uint8_t* __restrict out) {
+  const std::uint8_t *above = rows[0], *here = rows[1], *below = rows[2];
+  for (int x = 0; x < width; ++x) {
+    const short sum = static_cast<short>(above[x + 1] - above[x - 1] + 2 * (here[x + 1] - here[x - 1]) +
+                                         below[x + 1] - below[x - 1]);
+    const short v = static_cast<short>(128 + (sum >> 2));
+    out[x] = static_cast<std::uint8_t>(v < 0 ? 0 : v > 255 ? 255 : v);
+  }
+}
+
+template <int kChannels>
+void colorStepRowOf(const std::uint8_t* a, const std::uint8_t* b, int width, std::uint8_t* __restrict out) {
+  for (int x = 0; x < width; ++x) {
+    std::uint8_t step = 0;
+    for (int c = 0; c < kChannels; ++c) {
+      const std::uint8_t p = a[kChannels * x + c], q = b[kChannels * x + c];
+      const std::uint8_t difference = static_cast<std::uint8_t>((p > q ? p : q) - (p < q ? p : q));
+      step = difference > step ? difference : step;
+    }
+    out[x] = step;
+  }
+}
+
+void colorStepRow(const std::uint8_t* a, const std::uint8_t* b, int channels, int width, std::uint8_t* out) {
+  channels == 1 ? colorStepRowOf<1>(a, b, width, out) : colorStepRowOf<3>(a, b, width, out);
+}
+
+}  // namespace
