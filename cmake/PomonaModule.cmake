@@ -11,7 +11,8 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set(POMONA_ISAS scalar avx2 avx512 CACHE STRING "Instruction sets to build kernels for")
   set(POMONA_FLAGS_avx2 -mavx2 -mbmi -mbmi2 -mpopcnt -mlzcnt)
   set(POMONA_FLAGS_avx512 ${POMONA_FLAGS_avx2} -mavx512f -mavx512bw -mavx512dq -mavx512vl -mavx512vbmi
-      -mavx512bitalg -mprefer-vector-width=512)
+      -mavx512bitalg -mprefer-vector-width=512
+      -Wno-maybe-uninitialized)  # GCC 12 warns of its own _mm512_undefined_* (PR 105593)
 else()
   set(POMONA_ISAS scalar CACHE STRING "Instruction sets to build kernels for")
 endif()

@@ -22,8 +22,7 @@ struct ImageView {
   T& at(int y, int x) const { return data[y * stride + x]; }
   bool empty() const { return width <= 0 || height <= 0; }
   operator ImageView<const T>() const  // NOLINT(google-explicit-constructor): T* converts to const T* as well
-    requires(!std::is_const_v<T>)
-  {
+      requires(!std::is_const_v<T>) {
     return {data, width, height, stride};
   }
 };
@@ -39,7 +38,8 @@ struct GuideView {
   const std::uint8_t* row(int y) const { return data + y * stride; }
 };
 
-/// Raw memory on a 64-byte boundary. Growing discards the contents; shrinking keeps the memory for the next frame.
+/// Raw memory on a 64-byte boundary. Growing discards the contents; shrinking keeps the memory for the next
+/// frame.
 template <typename T>
 class Buffer {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -78,7 +78,8 @@ class Image {
   Image(int width, int height) { resize(width, height); }
 
   void resize(int width, int height) {
-    constexpr std::ptrdiff_t kStep = Buffer<T>::kAlignment / sizeof(T) > 0 ? Buffer<T>::kAlignment / sizeof(T) : 1;
+    constexpr std::ptrdiff_t kStep =
+        Buffer<T>::kAlignment / sizeof(T) > 0 ? Buffer<T>::kAlignment / sizeof(T) : 1;
     width_ = width;
     height_ = height;
     stride_ = (width + kStep - 1) / kStep * kStep;

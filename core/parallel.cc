@@ -14,15 +14,16 @@ struct Job {
   std::atomic<int> finished{0};
 };
 
-// Takes tasks until none is left. The release/acquire pair on `finished` is what makes the results of all tasks
-// visible to the caller without relying on the OpenMP runtime's own (uninstrumented) barrier.
+// Takes tasks until none is left. The release/acquire pair on `finished` is what makes the results of all
+// tasks visible to the caller without relying on the OpenMP runtime's own (uninstrumented) barrier.
 void drain(Job& job) {
   for (int i; (i = job.next.fetch_add(1, std::memory_order_acq_rel)) < job.count;) job.task(i);
   job.finished.fetch_add(1, std::memory_order_acq_rel);
 }
 
-// libgomp is not instrumented, so ThreadSanitizer cannot see that its fork orders the caller's writes before the
-// workers' first read of the region's arguments; only that hand-over is exempt from it, the tasks are not.
+// libgomp is not instrumented, so ThreadSanitizer cannot see that its fork orders the caller's writes before
+// the workers' first read of the region's arguments; only that hand-over is exempt from it, the tasks are
+// not.
 __attribute__((no_sanitize("thread"), noinline)) void fork(int threads, Job& job) {
 #pragma omp parallel num_threads(threads) default(none) shared(job)
   drain(job);
@@ -54,6 +55,8 @@ void parallelStrips(int threads, int rows, int min_rows, FunctionRef<void(int, i
   });
 }
 
-int availableThreads() { return std::max(1, omp_get_num_procs()); }
+int availableThreads() {
+  return std::max(1, omp_get_num_procs());
+}
 
 }  // namespace pomona

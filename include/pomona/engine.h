@@ -34,8 +34,8 @@ class StereoEngine {
 /// One pair, one call. The result owns its maps.
 StereoResult computeDisparity(const cv::Mat& left, const cv::Mat& right, const Options& options = {});
 
-/// The number of disparities (from `min_disparity` up, a multiple of 16) that the pair seems to need, from a match
-/// at a quarter of its size. Never more than the image width or 1024.
+/// The number of disparities (from `min_disparity` up, a multiple of 16) that the pair seems to need, from a
+/// match at a quarter of its size. Never more than the image width or 1024.
 int estimateNumDisparities(const cv::Mat& left, const cv::Mat& right, int min_disparity = 0);
 
 }  // namespace pomona

@@ -28,8 +28,8 @@ enum class PenaltyAdaptation {
 /// Path costs live in 8 bits, so the largest cost + p1 + p2 must not exceed 255.
 struct AggregationOptions {
   int paths = 8;    ///< 4 (horizontal and vertical) or 8 (and diagonal)
-  int p1 = 10;      ///< penalty for a disparity step of one; 1 <= p1 <= p2
-  int p2 = 60;      ///< penalty for a larger step
+  int p1 = 14;      ///< penalty for a disparity step of one; 1 <= p1 <= p2
+  int p2 = 63;      ///< penalty for a larger step
   int p2_min = 20;  ///< lower bound of the adapted penalty (kSoftIntensity); p1 <= p2_min <= p2
   PenaltyAdaptation adaptation = PenaltyAdaptation::kSoftIntensity;
 };
@@ -50,7 +50,8 @@ struct WinnerOptions {
 struct ValidationOptions {
   /// Largest |d_left - d_right| in pixels that passes; a negative value switches the check off.
   float left_right_px = 1.0f;
-  /// Connected regions (4-neighbours, disparity steps up to speckle_step_px) of fewer pixels are removed; 0: off.
+  /// Connected regions (4-neighbours, disparity steps up to speckle_step_px) of fewer pixels are removed; 0:
+  /// off.
   int speckle_size_px = 50;
   float speckle_step_px = 1.0f;
   int median_size = 3;  ///< 0 (off), 3 or 5
@@ -63,12 +64,13 @@ enum class CompletionMethod {
 
 struct CompletionOptions {
   CompletionMethod method = CompletionMethod::kFillHoles;
-  /// A hole is filled from measured pixels at most this far away (pixels along a search ray); farther away the
-  /// coarse maps decide. At least 1.
+  /// A hole is filled from measured pixels at most this far away (pixels along a search ray); farther away
+  /// the coarse maps decide. At least 1.
   int search_radius_px = 200;
-  float sigma_space_px = 10.0f;  ///< joint bilateral: spatial standard deviation, at the coarse scale (sigma_s)
-  float sigma_range = 30.0f;     ///< joint bilateral: guide-image standard deviation, 8-bit units (sigma_r)
-  int pyramid_levels = 6;        ///< Laplacian pyramid levels of the fusion, 1..16
+  float sigma_space_px =
+      10.0f;                  ///< joint bilateral: spatial standard deviation, at the coarse scale (sigma_s)
+  float sigma_range = 30.0f;  ///< joint bilateral: guide-image standard deviation, 8-bit units (sigma_r)
+  int pyramid_levels = 6;     ///< Laplacian pyramid levels of the fusion, 1..16
 };
 
 enum class OutputMode {
@@ -88,7 +90,8 @@ struct Options {
   CompletionOptions completion;
 
   int threads = 0;  ///< worker threads; 0: one per available processor; at most 1024
-  std::string isa;  ///< "scalar", "avx2", "avx512", "neon"; empty: POMONA_ISA if set, else the best the CPU has
+  std::string
+      isa;  ///< "scalar", "avx2", "avx512", "neon"; empty: POMONA_ISA if set, else the best the CPU has
 
   /// Throws std::invalid_argument naming the field, its value and the allowed range.
   void validate() const;

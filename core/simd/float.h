@@ -1,0 +1,65 @@
+// Vectors of floats, as wide as the compiler flags of the including kernel file allow.
+//
+// Written with the vector types GCC and Clang share, so one text serves every instruction set: `+ - * /`,
+// comparisons and `mask ? a : b` are the compiler's own, lane by lane, and become one instruction each. All
+// lanes do IEEE arithmetic in the order of the text, so a lane's result does not depend on the width.
+#pragma once
+
+#include <cstdint>
+
+#if defined(__AVX2__)
+#include <immintrin.h>
+#endif
+
+namespace pomona {
+namespace {
+
+#if defined(__AVX512F__)
+constexpr int kFloatLanes = 16;
+#elif defined(__AVX2__)
+constexpr int kFloatLanes = 8;
+#else
+constexpr int kFloatLanes = 4;  // SSE2, NEON: what every CPU of the family has
+#endif
+
+typedef float Floats __attribute__((vector_size(4 * kFloatLanes)));
+typedef std::int32_t Ints __attribute__((vector_size(4 * kFloatLanes)));  ///< also a mask: 0 or -1 per lane
+
+/// `p` needs no alignment.
+inline Floats load(const float* p) {
+  Floats v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
+}
+inline void store(float* p, Floats v) {
+  __builtin_memcpy(p, &v, sizeof v);
+}
+/// Stores the first `count` lanes only; all of them if there are fewer.
+inline void storeFirst(float* p, Floats v, int count) {
+  if (count >= kFloatLanes) return store(p, v);
+  for (int i = 0; i < count; ++i) p[i] = v[i];
+}
+
+inline Floats broadcast(float x) {
+  return x - Floats{};
+}  // x - 0 is x, even for -0
+inline Floats min(Floats a, Floats b) {
+  return a < b ? a : b;
+}
+inline Floats max(Floats a, Floats b) {
+  return a > b ? a : b;
+}
+inline Ints isNan(Floats v) {
+  return v != v;
+}
+
+/// The bits of a vector, read as the other type.
+inline Ints bitsOf(Floats v) {
+  return reinterpret_cast<Ints>(v);
+}
+inline Floats floatsOf(Ints v) {
+  return reinterpret_cast<Floats>(v);
+}
+
+}  // namespace
+}  // namespace pomona

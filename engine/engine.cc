@@ -1,0 +1,152 @@
+#include "pomona/engine.h"
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "core/cpu.h"
+#include "core/parallel.h"
+#include "engine/coarse_stage.h"
+#include "engine/confidence.h"
+#include "engine/hierarchical_mi.h"
+#include "engine/input.h"
+#include "engine/sparse_stage.h"
+#include "pyramid/hole_fill.h"
+
+namespace pomona {
+namespace {
+
+template <typename T>
+cv::Mat shared(Image<T>& image, int type) {
+  return cv::Mat(image.height(), image.width(), type, image.row(0),
+                 static_cast<std::size_t>(image.view().stride) * sizeof(T));
+}
+
+}  // namespace
+
+struct StereoEngine::State {
+  Options options;
+  Isa isa;
+  int threads;
+
+  InputPair input;
+  HierarchicalMi mutual_information;
+  SparseStage sparse;
+  CoarseStage coarse;
+  HoleFillScratch hole_fill;
+  Image<float> confidence;
+  StereoResult result;
+
+  explicit State(const Options& o) : options(o), isa(chooseIsa(o.isa)) {
+    threads = o.threads > 0 ? o.threads : availableThreads();
+    result.timings.reserve(16);
+  }
+  SparseStage::Settings settings(const cv::Mat& mask) const;
+  bool isPaper() const {
+    return options.mode == OutputMode::kDense && options.completion.method == CompletionMethod::kPaper;
+  }
+  void fillWithCoarse(const SparseStage::Settings& settings);
+  void complete(const SparseStage::Settings& settings);
+  void publish();
+};
+
+SparseStage::Settings StereoEngine::State::settings(const cv::Mat& mask) const {
+  SparseStage::Settings s;
+  s.match = {options.min_disparity, options.num_disparities, options.cost, options.aggregation,
+             options.winner};
+  s.validation = options.validation;
+  if (!mask.empty())
+    s.mask = {mask.ptr<std::uint8_t>(), mask.cols, mask.rows, static_cast<std::ptrdiff_t>(mask.step1())};
+  s.isa = isa;
+  s.threads = threads;
+  return s;
+}
+
+/// The paper's dense map: every pixel from the coarse scales.
+void StereoEngine::State::fillWithCoarse(const SparseStage::Settings& settings) {
+  MatchMaps& maps = sparse.maps();
+  maps.resize(input.width(), input.height());
+  const ImageView<const float> map = coarse.run(input.gray(), input.left(), settings, options.completion);
+  parallelStrips(threads, map.height, 32, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      for (int x = 0; x < map.width; ++x) {
+        const bool masked = !settings.mask.empty() && settings.mask.at(y, x) == 0;
+        const float d = map.at(y, x);
+        maps.state.row(y)[x] =
+            static_cast<std::uint8_t>(masked ? PixelState::kMasked : PixelState::kFilledCoarse);
+        maps.disparity.row(y)[x] = masked          ? std::numeric_limits<float>::quiet_NaN()
+                                   : std::isnan(d) ? static_cast<float>(options.min_disparity)
+                                                   : d;
+      }
+  });
+}
+
+void StereoEngine::State::complete(const SparseStage::Settings& settings) {
+  MatchMaps& maps = sparse.maps();
+  const auto coarse_map = [&] {
+    return coarse.run(input.gray(), input.left(), settings, options.completion);
+  };
+  fillHoles({.guide = input.left(),
+             .right_disparity = maps.right_disparity.view(),
+             .coarse = coarse_map,
+             .search_radius_px = options.completion.search_radius_px,
+             .fallback_disparity = static_cast<float>(options.min_disparity)},
+            maps.disparity.view(), maps.state.view(), hole_fill, pyramidKernels(isa), threads);
+}
+
+void StereoEngine::State::publish() {
+  MatchMaps& maps = sparse.maps();
+  result.disparity = shared(maps.disparity, CV_32F);
+  result.state = shared(maps.state, CV_8U);
+  result.confidence = shared(confidence, CV_32F);
+}
+
+StereoEngine::StereoEngine(const Options& options) {
+  options.validate();
+  state_ = std::make_unique<State>(options);
+}
+StereoEngine::~StereoEngine() = default;
+StereoEngine::StereoEngine(StereoEngine&&) noexcept = default;
+StereoEngine& StereoEngine::operator=(StereoEngine&&) noexcept = default;
+
+const Options& StereoEngine::options() const {
+  return state_->options;
+}
+
+const StereoResult& StereoEngine::compute(const cv::Mat& left, const cv::Mat& right, const cv::Mat& mask) {
+  State& s = *state_;
+  StageClock clock(s.result.timings);
+  s.input.set(left, right, s.threads);
+  requireRangeFits(s.options.min_disparity, s.options.num_disparities, left.cols);
+  requireMaskFits(mask, left);
+  SparseStage::Settings settings = s.settings(mask);
+  clock.lap("input");
+
+  if (s.isPaper()) {
+    s.fillWithCoarse(settings);
+    clock.lap("coarse maps");
+  } else {
+    if (s.options.cost.cost == MatchingCost::kMutualInformation) {
+      settings.mutual_information = s.mutual_information.table(s.input.gray(), settings);
+      clock.lap("mutual information");
+    }
+    s.sparse.run(s.input.gray(), settings, clock);
+    if (s.options.mode == OutputMode::kDense) {
+      s.complete(settings);
+      clock.lap("completion");
+    }
+  }
+  estimateConfidence(s.sparse.maps(), s.options.aggregation, s.confidence, s.threads);
+  clock.lap("confidence");
+  s.publish();
+  return s.result;
+}
+
+StereoResult computeDisparity(const cv::Mat& left, const cv::Mat& right, const Options& options) {
+  StereoEngine engine(options);
+  StereoResult result = engine.compute(left, right);
+  for (cv::Mat* map : {&result.disparity, &result.state, &result.confidence}) *map = map->clone();
+  return result;
+}
+
+}  // namespace pomona

@@ -1,0 +1,129 @@
+#include "engine/input.h"
+
+#include <algorithm>
+#include <bit>
+#include <stdexcept>
+#include <string>
+
+#include "core/parallel.h"
+
+namespace pomona {
+namespace {
+
+std::string sizeText(const cv::Mat& m) {
+  return std::to_string(m.cols) + "x" + std::to_string(m.rows);
+}
+
+void requireImage(const char* argument, const cv::Mat& image) {
+  if (image.dims > 2) throw std::invalid_argument(std::string(argument) + " has more than two dimensions");
+  if (image.empty()) throw std::invalid_argument(std::string(argument) + " is an empty image");
+  const bool depth_fits = image.depth() == CV_8U || image.depth() == CV_16U;
+  if (!depth_fits || (image.channels() != 1 && image.channels() != 3))
+    throw std::invalid_argument(std::string(argument) + " is of type " + cv::typeToString(image.type()) +
+                                "; allowed: CV_8U or CV_16U with 1 or 3 channels");
+  constexpr long long kMostPixels = 64'000'000, kLongestSide = 32'000;
+  if (image.cols > kLongestSide || image.rows > kLongestSide || 1LL * image.cols * image.rows > kMostPixels)
+    throw std::invalid_argument(std::string(argument) + " is " + sizeText(image) +
+                                "; allowed: sides up to 32000 and 64 million pixels");
+}
+
+template <typename T>
+ImageView<const T> viewOf(const cv::Mat& m) {
+  return {m.ptr<T>(), m.cols * m.channels(), m.rows, static_cast<std::ptrdiff_t>(m.step1())};
+}
+
+template <typename T>
+ImageView<const T> grayOf(const cv::Mat& image, Image<T>& buffer, int threads) {
+  const ImageView<const T> in = viewOf<T>(image);
+  if (image.channels() == 1) return in;
+  buffer.resize(image.cols, image.rows);
+  parallelStrips(threads, image.rows, 32, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) grayFromBgr(in.row(y), image.cols, buffer.row(y));
+  });
+  return buffer.view();
+}
+
+int largestValue(ImageView<const std::uint16_t> image) {
+  std::uint16_t largest = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) largest = std::max(largest, image.row(y)[x]);
+  return largest;
+}
+
+ImageView<const std::uint8_t> shiftedDown(ImageView<const std::uint16_t> in, int shift,
+                                          Image<std::uint8_t>& buffer, int threads) {
+  buffer.resize(in.width, in.height);
+  parallelStrips(threads, in.height, 32, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      for (int x = 0; x < in.width; ++x) buffer.row(y)[x] = static_cast<std::uint8_t>(in.row(y)[x] >> shift);
+  });
+  return buffer.view();
+}
+
+}  // namespace
+
+template <typename T>
+void grayFromBgr(const T* bgr, int width, T* gray) {
+  for (int x = 0; x < width; ++x, bgr += 3)
+    gray[x] = static_cast<T>((29u * bgr[0] + 150u * bgr[1] + 77u * bgr[2] + 128u) >> 8);
+}
+template void grayFromBgr(const std::uint8_t*, int, std::uint8_t*);
+template void grayFromBgr(const std::uint16_t*, int, std::uint16_t*);
+
+void InputPair::set(const cv::Mat& left, const cv::Mat& right, int threads) {
+  requireImage("left", left);
+  requireImage("right", right);
+  if (left.size() != right.size())
+    throw std::invalid_argument("right is " + sizeText(right) + " but left is " + sizeText(left) +
+                                "; both views must have the same size");
+  if (left.type() != right.type())
+    throw std::invalid_argument("right is of type " + cv::typeToString(right.type()) + " but left is " +
+                                cv::typeToString(left.type()) + "; both views must have the same type");
+
+  const cv::Mat* images[2] = {&left, &right};
+  ImageView<const std::uint8_t> gray8[2];
+  ImageView<const std::uint16_t> gray16[2];
+  if (left.depth() == CV_8U) {
+    for (int i = 0; i < 2; ++i) {
+      gray8[i] = grayOf(*images[i], buffers_[i].gray8, threads);
+      const ImageView<const std::uint8_t> v = viewOf<std::uint8_t>(*images[i]);
+      guide_[i] = {v.data, left.cols, v.height, left.channels(), v.stride};
+    }
+  } else {
+    // 8-bit stages see the upper bits that are in use: 10- and 12-bit cameras leave the top ones empty.
+    const int largest =
+        std::max(largestValue(viewOf<std::uint16_t>(left)), largestValue(viewOf<std::uint16_t>(right)));
+    const int shift = std::max(0, static_cast<int>(std::bit_width(static_cast<unsigned>(largest))) - 8);
+    for (int i = 0; i < 2; ++i) {
+      gray16[i] = grayOf(*images[i], buffers_[i].gray16, threads);
+      gray8[i] = shiftedDown(gray16[i], shift, buffers_[i].gray8, threads);
+      ImageView<const std::uint8_t> guide = gray8[i];
+      if (left.channels() == 3)
+        guide = shiftedDown(viewOf<std::uint16_t>(*images[i]), shift, buffers_[i].guide8, threads);
+      guide_[i] = {guide.data, left.cols, guide.height, left.channels(), guide.stride};
+    }
+  }
+  gray_ = {gray8[0], gray8[1], gray16[0], gray16[1]};
+}
+
+void requireRangeFits(int min_disparity, int num_disparities, int width) {
+  if (num_disparities > width)
+    throw std::invalid_argument("num_disparities is " + std::to_string(num_disparities) +
+                                "; allowed: at most the image width, " + std::to_string(width));
+  if (min_disparity >= width || min_disparity + num_disparities <= -width)
+    throw std::invalid_argument(
+        "min_disparity is " + std::to_string(min_disparity) +
+        "; allowed: " + std::to_string(1 - width - num_disparities) + " to " + std::to_string(width - 1) +
+        ", or no pixel has a match inside the right image of width " + std::to_string(width));
+}
+
+void requireMaskFits(const cv::Mat& mask, const cv::Mat& left) {
+  if (mask.empty()) return;
+  if (mask.type() != CV_8UC1)
+    throw std::invalid_argument("mask is of type " + cv::typeToString(mask.type()) + "; allowed: CV_8UC1");
+  if (mask.size() != left.size())
+    throw std::invalid_argument("mask is " + sizeText(mask) + " but left is " + sizeText(left) +
+                                "; both must have the same size");
+}
+
+}  // namespace pomona

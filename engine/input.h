@@ -1,0 +1,48 @@
+// What a caller hands in, checked and brought into the forms the stages work on.
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core.hpp>
+
+#include "core/image.h"
+#include "pomona/options.h"
+#include "sgm/matcher.h"
+
+namespace pomona {
+
+/// A pair in working form. Views point into the caller's images where these already have the right form,
+/// otherwise into buffers that are reused from frame to frame.
+class InputPair {
+ public:
+  /// Throws std::invalid_argument naming the argument, what it is and what is allowed.
+  void set(const cv::Mat& left, const cv::Mat& right, int threads);
+
+  int width() const { return gray_.left.width; }
+  int height() const { return gray_.left.height; }
+  const GrayPair& gray() const { return gray_; }
+  /// 8-bit views with the caller's number of channels.
+  GuideView left() const { return guide_[0]; }
+  GuideView right() const { return guide_[1]; }
+
+ private:
+  struct Buffers {
+    Image<std::uint8_t> gray8, guide8;
+    Image<std::uint16_t> gray16;
+  };
+  GrayPair gray_;
+  GuideView guide_[2];
+  Buffers buffers_[2];
+};
+
+/// Gray from 8- or 16-bit BGR: (29 B + 150 G + 77 R + 128) / 256.
+template <typename T>
+void grayFromBgr(const T* bgr, int width, T* gray);
+
+/// Throws if the searched range does not suit the image: at least one disparity must map into it, and there
+/// may not be more disparities than columns.
+void requireRangeFits(int min_disparity, int num_disparities, int width);
+
+/// Throws unless `mask` is empty or CV_8U with the size of `left`.
+void requireMaskFits(const cv::Mat& mask, const cv::Mat& left);
+
+}  // namespace pomona

@@ -1,0 +1,121 @@
+#include "pomona/options.h"
+
+#include <cmath>
+#include <initializer_list>
+#include <stdexcept>
+#include <string>
+
+#include "core/cpu.h"
+#include "sgm/kernels.h"
+#include "sgm/mutual_information.h"
+
+namespace pomona {
+namespace {
+
+std::string text(double v) {
+  std::string s = std::to_string(v);
+  if (s.find('.') != std::string::npos) s.erase(s.find_last_not_of('0') + 1);
+  if (!s.empty() && s.back() == '.') s.pop_back();
+  return s;
+}
+
+[[noreturn]] void refuse(const char* field, double value, const std::string& allowed) {
+  throw std::invalid_argument(std::string(field) + " is " + text(value) + "; allowed: " + allowed);
+}
+
+/// NaN fails every range.
+void requireRange(const char* field, double value, double low, double high) {
+  if (!(value >= low && value <= high)) refuse(field, value, text(low) + " to " + text(high));
+}
+
+void requireOneOf(const char* field, int value, std::initializer_list<int> allowed) {
+  std::string list;
+  for (int a : allowed) {
+    if (a == value) return;
+    list += (list.empty() ? "" : ", ") + std::to_string(a);
+  }
+  refuse(field, value, list);
+}
+
+template <typename Enum>
+void requireEnum(const char* field, Enum value, Enum last) {
+  requireRange(field, static_cast<int>(value), 0, static_cast<int>(last));
+}
+
+}  // namespace
+
+int maximumCost(MatchingCost cost) {
+  switch (cost) {
+    case MatchingCost::kCensus5x5:
+      return 24;
+    case MatchingCost::kCensus7x7:
+      return 48;
+    case MatchingCost::kCensus9x7:
+      return 62;
+    case MatchingCost::kCenterSymmetricCensus9x7:
+      return 31;
+    case MatchingCost::kMutualInformation:
+      return MutualInformation::kMaximumCost;
+  }
+  return 255;
+}
+
+void Options::validate() const {
+  requireRange("min_disparity", min_disparity, -16384, 16384);
+  requireRange("num_disparities", num_disparities, 1, kMaxDisparities);
+  requireEnum("mode", mode, OutputMode::kDense);
+  requireRange("threads", threads, 0, 1024);
+  chooseIsa(isa);
+
+  requireEnum("cost.cost", cost.cost, MatchingCost::kMutualInformation);
+  requireOneOf("aggregation.paths", aggregation.paths, {4, 8});
+  requireEnum("aggregation.adaptation", aggregation.adaptation, PenaltyAdaptation::kSoftIntensity);
+  const int budget = 255 - maximumCost(cost.cost);
+  requireRange("aggregation.p1", aggregation.p1, 1, budget / 2);
+  if (aggregation.p2 < aggregation.p1 || aggregation.p2 > budget - aggregation.p1)
+    refuse("aggregation.p2", aggregation.p2,
+           text(aggregation.p1) + " to " + text(budget - aggregation.p1) +
+               " (p1 <= p2, and largest matching cost + p1 + p2 <= 255)");
+  if (aggregation.adaptation == PenaltyAdaptation::kSoftIntensity)
+    requireRange("aggregation.p2_min", aggregation.p2_min, aggregation.p1, aggregation.p2);
+
+  requireEnum("winner.subpixel", winner.subpixel, SubpixelMethod::kEquiangular);
+  requireRange("winner.uniqueness_percent", winner.uniqueness_percent, 0, 100);
+
+  requireRange("validation.left_right_px", validation.left_right_px, -1e6, 1e6);
+  requireRange("validation.speckle_size_px", validation.speckle_size_px, 0, 1 << 30);
+  requireRange("validation.speckle_step_px", validation.speckle_step_px, 0, 1e6);
+  requireOneOf("validation.median_size", validation.median_size, {0, 3, 5});
+
+  requireEnum("completion.method", completion.method, CompletionMethod::kPaper);
+  requireRange("completion.search_radius_px", completion.search_radius_px, 1, 1 << 20);
+  requireRange("completion.sigma_space_px", completion.sigma_space_px, 0.1, 100);
+  requireRange("completion.sigma_range", completion.sigma_range, 0.1, 1000);
+  requireRange("completion.pyramid_levels", completion.pyramid_levels, 1, 16);
+}
+
+Options Options::preset(std::string_view name) {
+  Options o;
+  if (name == "balanced") return o;
+  if (name == "fast") {
+    o.cost.cost = MatchingCost::kCensus5x5;
+    o.aggregation = {8, 5, 40, 10, PenaltyAdaptation::kSoftIntensity};
+    return o;
+  }
+  if (name == "quality") {
+    o.validation.left_right_px = 0.7f;
+    o.validation.speckle_size_px = 100;
+    return o;
+  }
+  if (name == "paper") {
+    o.cost.cost = MatchingCost::kMutualInformation;
+    o.aggregation = {8, 10, 100, 10, PenaltyAdaptation::kInverseIntensity};
+    o.winner.subpixel = SubpixelMethod::kParabola;
+    o.completion.method = CompletionMethod::kPaper;
+    return o;
+  }
+  throw std::invalid_argument("preset is '" + std::string(name) +
+                              "'; allowed: fast, balanced, quality, paper");
+}
+
+}  // namespace pomona

@@ -1,0 +1,9 @@
+#include "filters/kernels/table.inl"
+
+namespace pomona {
+
+const FilterKernels& filterKernelsAvx2() {
+  return kTable;
+}
+
+}  // namespace pomona

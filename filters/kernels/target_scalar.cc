@@ -1,0 +1,9 @@
+#include "filters/kernels/table.inl"
+
+namespace pomona {
+
+const FilterKernels& filterKernelsScalar() {
+  return kTable;
+}
+
+}  // namespace pomona

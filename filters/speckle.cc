@@ -1,0 +1,124 @@
+#include "filters/speckle.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/parallel.h"
+#include "filters/flags.h"
+#include "pomona/pixel_state.h"
+
+namespace pomona {
+namespace {
+
+using Run = SpeckleScratch::Run;
+using RowRuns = SpeckleScratch::RowRuns;
+
+// Strips are the same for every thread count: each has its own part of the array of runs.
+constexpr int kStripRows = 32;
+
+/// Halves the path to the root on its way.
+int findRoot(Run* runs, int i) {
+  while (runs[i].parent != i) {
+    runs[i].parent = runs[runs[i].parent].parent;
+    i = runs[i].parent;
+  }
+  return i;
+}
+
+void unite(Run* runs, int a, int b) {
+  a = findRoot(runs, a);
+  b = findRoot(runs, b);
+  if (a == b) return;
+  if (b < a) std::swap(a, b);
+  runs[b].parent = a;
+  runs[a].size += runs[b].size;
+}
+
+/// Calls `visit(x)` in rising order for each x in [1, width) where row[x] is not connected to row[x - 1].
+template <typename Visit>
+void forEachBreak(const float* row, int width, float max_step_px, Visit visit) {
+  FlagChunk breaks;
+  for (int begin = 1; begin < width; begin += FlagChunk::kPixels) {
+    const int count = std::min(FlagChunk::kPixels, width - begin);
+    for (int i = 0; i < count; ++i)
+      breaks.flags[i] =
+          !(std::fabs(row[begin + i] - row[begin + i - 1]) <= max_step_px);  // NaN breaks as well
+    breaks.forEachSet(count, [&](int i) { visit(begin + i); });
+  }
+}
+
+/// Appends the runs of a row at `next`; returns the index after the last one.
+int appendRuns(const float* row, int width, float max_step_px, Run* runs, int next) {
+  int begin = 0;
+  const auto close = [&](int end) {
+    if (!std::isnan(row[begin])) {
+      runs[next] = {begin, end, next, end - begin};
+      ++next;
+    }
+    begin = end;
+  };
+  forEachBreak(row, width, max_step_px, close);
+  close(width);
+  return next;
+}
+
+/// Unites the runs of two neighbouring rows that are connected somewhere.
+void linkRows(const float* upper, RowRuns above, const float* lower, RowRuns below, float max_step_px,
+              Run* runs) {
+  const auto connected = [&](int begin, int end) {
+    for (int x = begin; x < end; ++x)
+      if (std::fabs(upper[x] - lower[x]) <= max_step_px) return true;
+    return false;
+  };
+  for (int a = above.first, b = below.first; a < above.last && b < below.last;) {
+    if (connected(std::max(runs[a].begin, runs[b].begin), std::min(runs[a].end, runs[b].end)))
+      unite(runs, a, b);
+    if (runs[a].end < runs[b].end)
+      ++a;
+    else
+      ++b;
+  }
+}
+
+}  // namespace
+
+void removeSpeckles(ImageView<float> disparity, ImageView<std::uint8_t> state, int min_size_px,
+                    float max_step_px, SpeckleScratch& scratch, int threads) {
+  const int width = disparity.width, height = disparity.height;
+  if (disparity.empty() || min_size_px <= 1) return;
+  scratch.runs.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  scratch.rows.resize(static_cast<std::size_t>(height));
+  Run* runs = scratch.runs.data();
+  RowRuns* rows = scratch.rows.data();
+  const auto link = [&](int y) {
+    linkRows(disparity.row(y - 1), rows[y - 1], disparity.row(y), rows[y], max_step_px, runs);
+  };
+
+  parallelFor(threads, (height + kStripRows - 1) / kStripRows, [&](int strip) {
+    const int y_begin = strip * kStripRows, y_end = std::min(height, y_begin + kStripRows);
+    int next = y_begin * width;
+    for (int y = y_begin; y < y_end; ++y) {
+      const int first = next;
+      next = appendRuns(disparity.row(y), width, max_step_px, runs, first);
+      rows[y] = {first, next};
+      if (y > y_begin) link(y);
+    }
+  });
+  for (int y = kStripRows; y < height; y += kStripRows) link(y);
+
+  parallelStrips(threads, height, kStripRows, [&](int y_begin, int y_end) {
+    for (int y = y_begin; y < y_end; ++y)
+      for (int i = rows[y].first; i < rows[y].last; ++i) {
+        int root = i;
+        while (runs[root].parent != root) root = runs[root].parent;  // read only: strips share the forest
+        if (runs[root].size >= min_size_px) continue;
+        std::fill(disparity.row(y) + runs[i].begin, disparity.row(y) + runs[i].end,
+                  std::numeric_limits<float>::quiet_NaN());
+        std::fill(state.row(y) + runs[i].begin, state.row(y) + runs[i].end,
+                  static_cast<std::uint8_t>(PixelState::kSpeckle));
+      }
+  });
+}
+
+}  // namespace pomona

@@ -1,0 +1,31 @@
+// Removal of small regions of a disparity map.
+#pragma once
+
+#include <cstdint>
+
+#include "core/image.h"
+
+namespace pomona {
+
+struct SpeckleScratch {
+  /// Known pixels [begin, end) of one row whose neighbours differ by at most the step; a node of a union-find
+  /// forest whose roots have the lowest index of their component.
+  struct Run {
+    int begin, end;
+    int parent;
+    int size;  ///< pixels of the component; meaningful in roots
+  };
+  struct RowRuns {
+    int first, last;  ///< runs[first] up to, not including, runs[last]
+  };
+  Buffer<Run> runs;
+  Buffer<RowRuns> rows;
+};
+
+/// Finds the 4-connected components of known (not NaN) pixels in which neighbours differ by at most
+/// `max_step_px`, and makes every pixel of components of fewer than `min_size_px` pixels unknown: disparity
+/// NaN, state PixelState::kSpeckle. Linear in the number of pixels, at most 2^31 of them.
+void removeSpeckles(ImageView<float> disparity, ImageView<std::uint8_t> state, int min_size_px,
+                    float max_step_px, SpeckleScratch& scratch, int threads);
+
+}  // namespace pomona

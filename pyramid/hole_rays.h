@@ -1,0 +1,69 @@
+// The holes of a disparity map, and the nearest measured pixel in each of sixteen directions around every
+// hole.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/image.h"
+#include "pyramid/kernels.h"
+
+namespace pomona {
+
+struct Ray {
+  int dx, dy;
+  constexpr int squaredStep() const { return dx * dx + dy * dy; }  // 1, 2 or 5
+};
+/// The two along the row come first.
+inline constexpr std::array<Ray, 16> kRays = {{{-1, 0},
+                                               {1, 0},
+                                               {0, -1},
+                                               {0, 1},
+                                               {-1, -1},
+                                               {1, -1},
+                                               {-1, 1},
+                                               {1, 1},
+                                               {-2, -1},
+                                               {2, -1},
+                                               {-2, 1},
+                                               {2, 1},
+                                               {-1, -2},
+                                               {1, -2},
+                                               {-1, 2},
+                                               {1, 2}}};
+
+class HoleRays {
+ public:
+  struct Pixel {
+    std::uint16_t x, y;
+  };
+  static constexpr std::uint16_t kNoSource = 0xffff;
+
+  /// Lists the holes, in row-major order: pixels that are missing but not masked, or measured but NaN.
+  /// Sources are the other measured pixels.
+  void findHoles(ImageView<const float> disparity, ImageView<const std::uint8_t> state, int threads);
+
+  /// Follows all rays from all holes found, up to the longest number of steps within `radius_px`.
+  /// Works one step per row and ray over the whole image, so its time does not depend on how large the holes
+  /// are.
+  void follow(int radius_px, const PyramidKernels& kernels, int threads);
+
+  int count() const { return count_; }
+  const Pixel* holes() const { return holes_.data(); }
+  /// Steps from each hole along kRays[ray] to its first source, or kNoSource.
+  const std::uint16_t* steps(std::size_t ray) const {
+    return steps_.data() + ray * static_cast<std::size_t>(count_);
+  }
+
+ private:
+  void followRay(std::size_t index, int radius_px, const PyramidKernels& kernels);
+
+  int count_ = 0;
+  Buffer<int> row_begin_;  // index of each row's first hole
+  Buffer<Pixel> holes_;
+  Buffer<std::uint16_t> steps_;     // one plane of count_ values per ray
+  Image<std::uint16_t> open_;       // 0 at sources, 0xffff elsewhere
+  Image<std::uint16_t> ring_rows_;  // the last three rows of every ray's sweep
+};
+
+}  // namespace pomona

@@ -1,0 +1,79 @@
+// The row loops of scaling, pyramids and hole filling, one table of them per instruction set.
+//
+// Every table gives the same bytes: integer sums are exact, float expressions are evaluated per element in
+// the order written here, and nothing is contracted. Rows need no alignment and may have any length >= 0.
+#pragma once
+
+#include <cstdint>
+
+namespace pomona {
+
+enum class Isa;
+
+/// Most holes that one call of a kernel takes.
+constexpr int kHoleBatch = 64;
+
+/// What the candidates of one ray are read from. Strides count elements; stride * height must be below 2^31.
+struct CandidateSources {
+  const float* disparity;
+  std::int32_t disparity_stride;
+  const float* right_disparity;
+  std::int32_t right_stride;
+  const std::uint32_t* color;  ///< up to three bytes a pixel, see packColors
+  std::int32_t color_stride;
+  std::int32_t width;
+  float visibility_tolerance_px;
+  const std::uint32_t* color_weight;     ///< by the sum of absolute differences of the bytes; below 2^16
+  const std::uint32_t* distance_weight;  ///< by the number of steps; below 2^16
+  std::int32_t dx, dy;                   ///< the ray's step
+};
+
+struct PyramidKernels {
+  /// sum[i] += weight * in[i]
+  void (*accumulate8)(const std::uint8_t* in, std::uint32_t weight, int n, std::uint32_t* sum);
+  void (*accumulate16)(const std::uint16_t* in, std::uint32_t weight, int n, std::uint32_t* sum);
+
+  /// out[x] = sum over k of weight[k n + x] * in[index[k n + x]], k = 0..3
+  void (*cubicRow)(const float* in, const std::int32_t* index, const float* weight, int n, float* out);
+  /// out[x] = sum over k of weight[k] * rows[k][x]
+  void (*cubicColumn)(const float* const rows[4], const float weight[4], int n, float* out);
+
+  /// Every second sample of `in` (n of them) after [1 4 6 4 1]/16, both ends replicated; writes (n + 1) / 2.
+  void (*reduceRow)(const float* in, int n, float* out);
+  /// out = (rows[0] + 4 rows[1] + 6 rows[2] + 4 rows[3] + rows[4]) / 16
+  void (*reduceColumn)(const float* const rows[5], int n, float* out);
+  /// The (n + 1) / 2 samples of `in` at twice their rate: [1 6 1]/8 at even, [1 1]/2 at odd places; writes n.
+  void (*expandRow)(const float* in, int n, float* out);
+  /// inout += side_weight * (above + below) + middle_weight * middle
+  void (*addExpandedColumn)(const float* above, const float* middle, const float* below, float side_weight,
+                            float middle_weight, int n, float* inout);
+
+  /// inout = (inout + other) / 2
+  void (*average)(const float* other, int n, float* inout);
+  /// inout = weight * inout + (1 - weight) * other
+  void (*blend)(const float* other, const float* weight, int n, float* inout);
+
+  /// One step along a ray: out[i] = open[i] & saturating(previous[i] + 1); `open` is 0 at a source, else
+  /// 0xffff.
+  void (*advanceRays)(const std::uint16_t* previous, const std::uint16_t* open, int n, std::uint16_t* out);
+
+  /// out[i] = the bytes of pixel i, the first in the lowest place
+  void (*packColors)(const std::uint8_t* in, int channels, int n, std::uint32_t* out);
+
+  /// The candidate (disparity, weight) that a ray gives each of n holes at (x, y), see fillHoles(). `steps`
+  /// is 0xffff where the ray ends at no source; that, and an impossible candidate, gives (+infinity, 0).
+  void (*gatherCandidates)(const CandidateSources& sources, const std::int32_t* x, const std::int32_t* y,
+                           const std::uint32_t* here, const std::uint16_t* steps, int n, float* disparity,
+                           std::uint32_t* weight);
+
+  /// For each of n <= kHoleBatch holes the smallest of its 16 disparities (plane k at k n) that has, together
+  /// with the smaller ones, at least quarters[i] / 4 of all weight: 1 or 2. Exact: the sum of weights must
+  /// fit 32 bits.
+  void (*weightedQuantile)(const float* disparity, const std::uint32_t* weight, const std::uint32_t* quarters,
+                           int n, float* out);
+};
+
+/// The table of an instruction set; that of the scalar build if there is none for it.
+const PyramidKernels& pyramidKernels(Isa isa);
+
+}  // namespace pomona

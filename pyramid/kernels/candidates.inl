@@ -1,0 +1,97 @@
+// Batches of holes: what their rays offer, and which of it they take. One lane per hole throughout.
+
+namespace pomona {
+namespace {
+
+void packColors(const std::uint8_t* in, int channels, int n, std::uint32_t* __restrict out) {
+  if (channels == 1)
+    for (int i = 0; i < n; ++i) out[i] = in[i];
+  else
+    for (int i = 0; i < n; ++i)
+      out[i] = in[3 * i] | static_cast<std::uint32_t>(in[3 * i + 1]) << 8 |
+               static_cast<std::uint32_t>(in[3 * i + 2]) << 16;
+}
+
+inline std::int32_t byteDifference(std::uint32_t a, std::uint32_t b, int shift) {
+  const std::int32_t d =
+      static_cast<std::int32_t>(a >> shift & 255) - static_cast<std::int32_t>(b >> shift & 255);
+  return d < 0 ? -d : d;
+}
+
+// One element at a time on purpose: left to itself, GCC takes vectors of indices apart again, which is
+// slower.
+template <typename T>
+__attribute__((optimize("no-tree-vectorize"))) void lookUp(const T* table, const std::int32_t* index, int n,
+                                                           T* __restrict out) {
+  for (int i = 0; i < n; ++i) out[i] = table[index[i]];
+}
+
+// Masks by multiplication with -1 or 0 where a conditional would keep GCC from vectorising.
+void gatherCandidates(const CandidateSources& sources, const std::int32_t* x, const std::int32_t* y,
+                      const std::uint32_t* here, const std::uint16_t* steps, int n,
+                      float* __restrict disparity, std::uint32_t* __restrict weight) {
+  const CandidateSources s = sources;
+  const float width = static_cast<float>(s.width);
+  std::int32_t index[kHoleBatch] = {}, color_index[kHoleBatch] = {}, count[kHoleBatch] = {};
+  for (int i = 0; i < n; ++i) {  // a ray without a source ends at the hole itself
+    count[i] = steps[i] & -static_cast<std::int32_t>(steps[i] != 0xffff);
+    const std::int32_t source_x = x[i] + s.dx * count[i], source_y = y[i] + s.dy * count[i];
+    index[i] = source_y * s.disparity_stride + source_x;
+    color_index[i] = source_y * s.color_stride + source_x;
+  }
+  float e[kHoleBatch], seen[kHoleBatch];
+  std::uint32_t color[kHoleBatch], color_weight[kHoleBatch], distance_weight[kHoleBatch];
+  lookUp(s.disparity, index, n, e);
+  lookUp(s.color, color_index, n, color);
+  lookUp(s.distance_weight, count, n, distance_weight);
+
+  std::int32_t inside[kHoleBatch];
+  for (int i = 0; i < n; ++i) {
+    // floor(x - e + 1/2), with everything beyond the image drawn to its very edge so that it fits an integer
+    const float place = static_cast<float>(x[i]) - e[i] + 0.5f;
+    const float near_place = place > -1.0f ? place : -1.0f;
+    const float clamped = near_place < width ? near_place : width;
+    const std::int32_t truncated = static_cast<std::int32_t>(clamped);
+    const std::int32_t x_right = truncated - (static_cast<float>(truncated) > clamped);
+    inside[i] = -static_cast<std::int32_t>((x_right >= 0) & (x_right < s.width));
+    index[i] = y[i] * s.right_stride + (x_right & inside[i]);
+    color_index[i] = byteDifference(here[i], color[i], 0) + byteDifference(here[i], color[i], 8) +
+                     byteDifference(here[i], color[i], 16);
+  }
+  lookUp(s.right_disparity, index, n, seen);
+  lookUp(s.color_weight, color_index, n, color_weight);
+
+  for (int i = 0; i < n; ++i) {
+    const bool contradicted = (inside[i] != 0) & (seen[i] < e[i] - s.visibility_tolerance_px);
+    const bool possible = (steps[i] != 0xffff) & !contradicted;
+    const std::uint32_t product = color_weight[i] * distance_weight[i] >> 4;
+    disparity[i] = possible ? e[i] : __builtin_inff();
+    weight[i] = (product + (product == 0)) & -static_cast<std::uint32_t>(possible);
+  }
+}
+
+void weightedQuantile(const float* disparity, const std::uint32_t* weight, const std::uint32_t* quarters,
+                      int n, float* __restrict out) {
+  std::uint32_t needed[kHoleBatch] = {}, sum[kHoleBatch];
+  for (int k = 0; k < 16; ++k)
+    for (int i = 0; i < n; ++i) needed[i] += weight[k * n + i];
+  for (int i = 0; i < n; ++i) {
+    const std::uint32_t total = needed[i];
+    const std::uint32_t half = total / 2 + total % 2, quarter = total / 4 + (total % 4 != 0);
+    needed[i] = quarters[i] == 1 ? quarter : half;
+    out[i] = __builtin_inff();
+  }
+  for (int k = 0; k < 16; ++k) {
+    const float* d = disparity + k * n;
+    for (int i = 0; i < n; ++i) sum[i] = 0;
+    for (int j = 0; j < 16; ++j)
+      for (int i = 0; i < n; ++i) {
+        const std::uint32_t w = weight[j * n + i];
+        sum[i] += disparity[j * n + i] <= d[i] ? w : 0;
+      }
+    for (int i = 0; i < n; ++i) out[i] = (sum[i] >= needed[i]) & (d[i] < out[i]) ? d[i] : out[i];
+  }
+}
+
+}  // namespace
+}  // namespace pomona

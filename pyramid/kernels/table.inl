@@ -1,0 +1,31 @@
+// Everything an instruction set's target file compiles: the bodies, and the table of them.
+#include "pyramid/kernels.h"
+// clang-format off: the bodies have no includes of their own
+#include "pyramid/kernels/candidates.inl"
+#include "pyramid/kernels/laplacian.inl"
+#include "pyramid/kernels/rays.inl"
+#include "pyramid/kernels/scale.inl"
+// clang-format on
+
+namespace pomona {
+namespace {
+
+constexpr PyramidKernels kTable = {
+    .accumulate8 = accumulate<std::uint8_t>,
+    .accumulate16 = accumulate<std::uint16_t>,
+    .cubicRow = cubicRow,
+    .cubicColumn = cubicColumn,
+    .reduceRow = reduceRow,
+    .reduceColumn = reduceColumn,
+    .expandRow = expandRow,
+    .addExpandedColumn = addExpandedColumn,
+    .average = average,
+    .blend = blend,
+    .advanceRays = advanceRays,
+    .packColors = packColors,
+    .gatherCandidates = gatherCandidates,
+    .weightedQuantile = weightedQuantile,
+};
+
+}  // namespace
+}  // namespace pomona

@@ -1,0 +1,191 @@
+#include "pyramid/scale.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/parallel.h"
+
+namespace pomona {
+namespace {
+
+constexpr int kMinRowsPerStrip = 8;
+
+// One axis of area averaging. In units of 1 / out of an input pixel, input pixels are `out` long and output
+// pixels `in` long, so that every overlap is an integer; dividing by the common divisor keeps the integers
+// small.
+struct AreaAxis {
+  AreaAxis(int in_length, int out_length)
+      : in(in_length / std::gcd(in_length, out_length)), out(out_length / std::gcd(in_length, out_length)) {}
+
+  AreaSpan span(int position) const {
+    const std::int64_t begin = std::int64_t{position} * in, end = begin + in;
+    const std::int64_t first = begin / out, last = (end - 1) / out;
+    const std::int64_t first_weight = std::min((first + 1) * out, end) - begin;
+    return {static_cast<int>(first), static_cast<int>(last - first + 1),
+            static_cast<std::uint32_t>(first_weight),
+            static_cast<std::uint32_t>(end - std::max(last * out, begin))};
+  }
+  std::uint32_t weight(const AreaSpan& span, int i) const {
+    return i == 0                ? span.first_weight
+           : i == span.count - 1 ? span.last_weight
+                                 : static_cast<std::uint32_t>(out);
+  }
+
+  int in, out;
+};
+
+template <typename T>
+struct Interleaved {
+  const T* data;
+  int width, height, channels;
+  std::ptrdiff_t stride;
+};
+
+// The second half: columns are already summed over the output row's height.
+template <typename T>
+void averageAlongRow(const std::uint32_t* sums, const AreaAxis& axis, const AreaSpan* spans, int out_w,
+                     int channels, std::uint64_t area, T* out) {
+  for (int x = 0; x < out_w; ++x) {
+    const AreaSpan& span = spans[x];
+    for (int c = 0; c < channels; ++c) {
+      const std::uint32_t* p = sums + span.first * channels + c;
+      std::uint64_t inner = 0;
+      for (int i = 1; i < span.count - 1; ++i) inner += p[i * channels];
+      std::uint64_t sum =
+          std::uint64_t{span.first_weight} * p[0] + inner * static_cast<std::uint64_t>(axis.out);
+      if (span.count > 1) sum += std::uint64_t{span.last_weight} * p[(span.count - 1) * channels];
+      out[x * channels + c] = static_cast<T>((2 * sum + area) / (2 * area));
+    }
+  }
+}
+
+template <typename T, typename Accumulate>
+void averageAreas(const Interleaved<T>& in, Image<T>& out, int out_w, int out_h, ScaleScratch& scratch,
+                  Accumulate accumulate, int threads) {
+  const AreaAxis across(in.width, out_w), down(in.height, out_h);
+  const int row_values = in.width * in.channels;
+  out.resize(out_w * in.channels, out_h);
+  scratch.column_sums.resize(row_values, out_h);
+  scratch.spans.resize(static_cast<std::size_t>(out_w));
+  for (int x = 0; x < out_w; ++x) scratch.spans[static_cast<std::size_t>(x)] = across.span(x);
+  const std::uint64_t area = static_cast<std::uint64_t>(across.in) * static_cast<std::uint64_t>(down.in);
+  parallelStrips(threads, out_h, kMinRowsPerStrip, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      std::uint32_t* sums = scratch.column_sums.row(y);
+      std::fill_n(sums, row_values, 0u);
+      const AreaSpan span = down.span(y);
+      for (int i = 0; i < span.count; ++i)
+        accumulate(in.data + (span.first + i) * in.stride, down.weight(span, i), row_values, sums);
+      averageAlongRow(sums, across, scratch.spans.data(), out_w, in.channels, area, out.row(y));
+    }
+  });
+}
+
+// Keys 1981, Eq. 15: the kernel at distance s, for a = -1/2.
+double keys(double s) {
+  s = std::abs(s);
+  if (s < 1) return (1.5 * s - 2.5) * s * s + 1;
+  return s < 2 ? ((-0.5 * s + 2.5) * s - 4) * s + 2 : 0;
+}
+
+// Output centre x lies at (x + 1/2) in / out - 1/2 of the input: computed exactly, in units of 1 / (2 out).
+void prepareTaps(int in, int out, CubicTaps& taps) {
+  const std::size_t n = static_cast<std::size_t>(out);
+  taps.index.resize(4 * n);
+  taps.weight.resize(4 * n);
+  for (std::size_t x = 0; x < n; ++x) {
+    const std::int64_t unit = 2 * std::int64_t{out};
+    const std::int64_t position = (2 * static_cast<std::int64_t>(x) + 1) * in - out;
+    const std::int64_t whole = (position + unit) / unit - 1;  // floor: position >= -unit
+    const double fraction = static_cast<double>(position - whole * unit) / static_cast<double>(unit);
+    for (int k = 0; k < 4; ++k) {
+      const std::size_t tap = static_cast<std::size_t>(k) * n + x;
+      taps.index[tap] = static_cast<std::int32_t>(std::clamp<std::int64_t>(whole + k - 1, 0, in - 1));
+      taps.weight[tap] = static_cast<float>(keys(fraction - (k - 1)));
+    }
+  }
+}
+
+float meanOfKnownTaps(ImageView<const float> in, const std::int32_t row[4], const float row_weight[4],
+                      const CubicTaps& columns, std::size_t n, std::size_t x) {
+  float sum = 0, total = 0;
+  for (std::size_t j = 0; j < 4; ++j)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const float value = in.at(row[j], columns.index[k * n + x]);
+      if (std::isnan(value)) continue;
+      const float weight = std::abs(row_weight[j] * columns.weight[k * n + x]);
+      sum += weight * value;
+      total += weight;
+    }
+  return total > 0 ? sum / total : std::numeric_limits<float>::quiet_NaN();
+}
+
+}  // namespace
+
+int scaledLength(int length, int factor) {
+  return std::max(1, (length + factor - 1) / factor);
+}
+
+void areaDownscale(GuideView in, Image<std::uint8_t>& out, int out_w, int out_h, ScaleScratch& scratch,
+                   const PyramidKernels& kernels, int threads) {
+  averageAreas<std::uint8_t>({in.data, in.width, in.height, in.channels, in.stride}, out, out_w, out_h,
+                             scratch, kernels.accumulate8, threads);
+}
+
+void areaDownscale(ImageView<const std::uint16_t> in, Image<std::uint16_t>& out, int out_w, int out_h,
+                   ScaleScratch& scratch, const PyramidKernels& kernels, int threads) {
+  averageAreas<std::uint16_t>({in.data, in.width, in.height, 1, in.stride}, out, out_w, out_h, scratch,
+                              kernels.accumulate16, threads);
+}
+
+void bicubicUpscale(ImageView<const float> in, ImageView<float> out, ScaleScratch& scratch,
+                    const PyramidKernels& kernels, int threads) {
+  prepareTaps(in.width, out.width, scratch.columns);
+  prepareTaps(in.height, out.height, scratch.rows);
+  scratch.widened.resize(out.width, in.height);
+  scratch.row_has_nan.resize(static_cast<std::size_t>(in.height));
+  parallelStrips(threads, in.height, kMinRowsPerStrip, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      const float* row = in.row(y);
+      kernels.cubicRow(row, scratch.columns.index.data(), scratch.columns.weight.data(), out.width,
+                       scratch.widened.row(y));
+      scratch.row_has_nan[static_cast<std::size_t>(y)] =
+          std::any_of(row, row + in.width, [](float v) { return std::isnan(v); });
+    }
+  });
+  parallelStrips(threads, out.height, kMinRowsPerStrip, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      std::int32_t index[4];
+      float weight[4];
+      const float* rows[4];
+      bool has_nan = false;
+      for (int k = 0; k < 4; ++k) {
+        const std::size_t tap =
+            static_cast<std::size_t>(k) * static_cast<std::size_t>(out.height) + static_cast<std::size_t>(y);
+        index[k] = scratch.rows.index[tap];
+        weight[k] = scratch.rows.weight[tap];
+        rows[k] = scratch.widened.row(index[k]);
+        has_nan |= scratch.row_has_nan[static_cast<std::size_t>(index[k])] != 0;
+      }
+      float* o = out.row(y);
+      kernels.cubicColumn(rows, weight, out.width, o);
+      if (!has_nan) continue;
+      const std::size_t n = static_cast<std::size_t>(out.width);
+      for (std::size_t x = 0; x < n; ++x)  // a single absent tap has made the sum NaN
+        if (std::isnan(o[x])) o[x] = meanOfKnownTaps(in, index, weight, scratch.columns, n, x);
+    }
+  });
+}
+
+void scaleDisparity(ImageView<float> disparity, float ratio, int threads) {
+  parallelStrips(threads, disparity.height, kMinRowsPerStrip, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      float* row = disparity.row(y);
+      for (int x = 0; x < disparity.width; ++x) row[x] *= ratio;
+    }
+  });
+}
+
+}  // namespace pomona

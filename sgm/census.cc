@@ -1,0 +1,109 @@
+#include "sgm/census.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <type_traits>
+
+#include "core/parallel.h"
+
+namespace pomona {
+namespace {
+
+constexpr int kMarginX = 4, kMarginY = 3;  // of the largest window, 9x7
+
+struct Offset {
+  int dx, dy;
+};
+struct Comparison {
+  Offset a, b;  // the bit is I(p + a) < I(p + b)
+};
+struct Window {
+  int count = 0;
+  std::array<Comparison, 8 * kMaxCensusPlanes> comparisons{};
+  constexpr void add(Offset a, Offset b) { comparisons[count++] = {a, b}; }
+};
+
+/// Every neighbour against the centre.
+constexpr Window fullWindow(int width, int height) {
+  Window w;
+  for (int dy = -height / 2; dy <= height / 2; ++dy)
+    for (int dx = -width / 2; dx <= width / 2; ++dx)
+      if (dx != 0 || dy != 0) w.add({dx, dy}, {0, 0});
+  return w;
+}
+
+/// Every neighbour against the one opposite the centre.
+constexpr Window centerSymmetricWindow(int width, int height) {
+  Window w;
+  for (int dy = -height / 2; dy <= 0; ++dy)
+    for (int dx = -width / 2; dx <= width / 2; ++dx)
+      if (dy < 0 || dx < 0) w.add({dx, dy}, {-dx, -dy});
+  return w;
+}
+
+const Window& windowOf(MatchingCost cost) {
+  static constexpr Window k5x5 = fullWindow(5, 5), k7x7 = fullWindow(7, 7), k9x7 = fullWindow(9, 7),
+                          kSymmetric9x7 = centerSymmetricWindow(9, 7);
+  switch (cost) {
+    case MatchingCost::kCensus5x5:
+      return k5x5;
+    case MatchingCost::kCensus7x7:
+      return k7x7;
+    case MatchingCost::kCensus9x7:
+      return k9x7;
+    case MatchingCost::kCenterSymmetricCensus9x7:
+      return kSymmetric9x7;
+    case MatchingCost::kMutualInformation:
+      break;
+  }
+  assert(!"not a census cost");
+  return k5x5;
+}
+
+template <typename T>
+void padRow(const T* from, int width, T* to) {
+  std::fill_n(to, kMarginX, from[0]);
+  std::memcpy(to + kMarginX, from, sizeof(T) * static_cast<std::size_t>(width));
+  std::fill_n(to + kMarginX + width, kMarginX, from[width - 1]);
+}
+
+}  // namespace
+
+template <typename T>
+void CensusTransform<T>::compute(ImageView<const T> gray, MatchingCost cost, CensusPlanes& out,
+                                 const SgmKernels& kernels, int threads) {
+  const Window& window = windowOf(cost);
+  const int width = gray.width, height = gray.height;
+  out.planes = (window.count + 7) / 8;
+  for (int p = 0; p < out.planes; ++p) out.plane[p].resize(width, height);
+
+  padded_.resize(width + 2 * kMarginX, height + 2 * kMarginY);
+  parallelStrips(threads, padded_.height(), 32, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      padRow(gray.row(std::clamp(y - kMarginY, 0, height - 1)), width, padded_.row(y));
+  });
+
+  parallelStrips(threads, height, 8, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      const auto at = [&](Offset o) { return padded_.row(y + kMarginY + o.dy) + kMarginX + o.dx; };
+      for (int p = 0; p < out.planes; ++p) {
+        const T *a[8], *b[8];
+        for (int k = 0; k < 8; ++k) {
+          const int i = 8 * p + k;  // a missing comparison is that of the centre with itself: bit 0
+          a[k] = i < window.count ? at(window.comparisons[i].a) : at({0, 0});
+          b[k] = i < window.count ? at(window.comparisons[i].b) : at({0, 0});
+        }
+        if constexpr (std::is_same_v<T, std::uint8_t>)
+          kernels.census8(a, b, width, out.plane[p].row(y));
+        else
+          kernels.census16(a, b, width, out.plane[p].row(y));
+      }
+    }
+  });
+}
+
+template class CensusTransform<std::uint8_t>;
+template class CensusTransform<std::uint16_t>;
+
+}  // namespace pomona

@@ -1,0 +1,111 @@
+// The matcher's inner loops, one table per instruction set.
+//
+// STRIPED ORDER. The D disparities of a pixel occupy `vectors` byte vectors of kBytes lanes; disparity index
+// d = vectors * lane + vector. A step of one disparity is then a step of one vector, and only the outermost
+// vectors need a lane shift. D is padded to a multiple of kBytes. Padded disparities carry the largest
+// possible matching cost: by induction their path costs never fall below that of disparity D - 1, so they
+// change nothing.
+//
+// 16-bit sums use two word vectors per byte vector (see core/simd/scalar.h); wordPosition() says where d
+// stands.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace pomona {
+
+enum class Isa;  // core/cpu.h; kernels see no standard library
+
+constexpr int kMaxDisparities = 1024;
+constexpr int kMaxCensusPlanes = 8;
+
+/// Right-image bytes of one row, reversed and dealt out to `vectors` phases: with t = width - 1 - x + d, byte
+/// t / vectors of phase t % vectors belongs to column x - min_disparity - d, clamped to the image.
+struct StripedRow {
+  const std::uint8_t* data;
+  std::ptrdiff_t phase_stride;
+  std::ptrdiff_t plane_stride;  ///< from one census plane to the next
+};
+
+struct CensusCostRow {
+  int width, vectors, planes;                  ///< planes: bytes per census code, 3, 4, 6 or 8
+  const std::uint8_t* left[kMaxCensusPlanes];  ///< one byte per pixel and plane
+  StripedRow right;
+  const std::uint8_t* padding;  ///< vectors * kBytes: the maximum cost in padded lanes, 0 elsewhere
+  std::uint8_t* cost;           ///< out: width * vectors * kBytes
+};
+
+struct TableCostRow {
+  int width, vectors;
+  const std::uint8_t* left;   ///< one byte per pixel
+  StripedRow right;           ///< one plane
+  const std::uint8_t* table;  ///< 256 x 256, row = left byte
+  const std::uint8_t* padding;
+  std::uint8_t* cost;
+};
+
+/// One row of one sweep. A sweep carries three paths from row to row (from the left, straight, from the
+/// right) and starts a horizontal one in every row. Arrays with a guard pixel hold width + 2 pixels, pixel x
+/// at x + 1.
+struct AggregateRow {
+  int width, vectors;
+  bool diagonals;            ///< false: only the straight and the horizontal path
+  bool wide_sums;            ///< 16-bit partial sums instead of the 8-bit ones
+  const std::uint8_t* cost;  ///< width * vectors * kBytes
+  std::uint8_t* path[3];     ///< in: costs of the previous row, out: of this one; guard pixels are zero
+  std::uint32_t* minima;     ///< 4 quads per pixel (left, straight, right, horizontal); guard pixels are zero
+  const std::uint32_t* p2[4];  ///< quads; penalty of the step into pixel x, in the order of `minima`
+  std::uint8_t p1;
+  void* sums;  ///< first pass: out, second pass: in. width * vectors * kBytes bytes or words
+};
+
+struct WinnerRow {
+  int disparities, min_disparity;
+  const std::uint16_t* position;  ///< wordPosition of every disparity index
+  const std::uint16_t* labels;    ///< disparity index of every word position, kNoIndex for padding
+  const std::uint16_t* padding;   ///< 0xFFFF at padded word positions, 0 elsewhere
+  std::uint16_t* index;        ///< out, per pixel: the disparity index of the lowest sum (the lowest if tied)
+  std::uint16_t* best;         ///< out: that sum
+  std::uint16_t* below;        ///< out: the sum one disparity below (the pixel's own at index 0)
+  std::uint16_t* above;        ///< out: the sum one disparity above (the pixel's own at the last index)
+  std::uint16_t* second;       ///< out: the lowest sum more than one disparity away; 0xFFFF if there is none
+  std::uint16_t* right_index;  ///< out, per right pixel; must come in as kNoIndex
+  std::uint16_t* right_best;   ///< out: its sum
+  std::uint16_t*
+      right_below;  ///< out: the sum one disparity below, seen from the same right pixel; 0xFFFF, like
+  std::uint16_t* right_above;  ///< right_above, unless both lie in the image and the range
+  std::uint16_t* recent;       ///< scratch: the sums of the last recent_mask + 1 pixels
+  int recent_mask;             ///< a power of two less one; at least disparities + kWinnerDelay + 2 pixels
+};
+constexpr std::uint16_t kNoIndex = 0xFFFF;
+constexpr int kWinnerDelay = 4;
+
+struct SgmKernels {
+  int vector_bytes;  ///< kBytes
+  /// Bit k of out[x] = (a[k][x] < b[k][x]), for 8 pairs of rows.
+  void (*census8)(const std::uint8_t* const a[8], const std::uint8_t* const b[8], int width,
+                  std::uint8_t* out);
+  void (*census16)(const std::uint16_t* const a[8], const std::uint16_t* const b[8], int width,
+                   std::uint8_t* out);
+  void (*censusCost)(const CensusCostRow&);
+  void (*tableCost)(const TableCostRow&);
+  /// Left to right; leaves the partial sums of its paths.
+  void (*aggregateFirst)(const AggregateRow&);
+  /// Right to left; completes the sums and picks the winners of both views.
+  void (*aggregateLast)(const AggregateRow&, const WinnerRow&);
+};
+
+const SgmKernels& sgmKernels(Isa isa);
+
+constexpr int vectorsFor(int disparities, int vector_bytes) {
+  return (disparities + vector_bytes - 1) / vector_bytes;
+}
+
+/// Where the 16-bit sum of disparity index d stands among those of its pixel.
+constexpr int wordPosition(int d, int vectors, int vector_bytes) {
+  const int vector = d % vectors, lane = d / vectors, block = lane / 16, in_block = lane % 16;
+  return (2 * vector + in_block / 8) * (vector_bytes / 2) + block * 8 + in_block % 8;
+}
+
+}  // namespace pomona

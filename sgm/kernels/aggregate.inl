@@ -1,0 +1,198 @@
+// Semi-global aggregation of one row (Hirschmueller 2008, Eq. 13), all paths of a sweep fused.
+//
+//   L_r(p,d) = C(p,d) + min(L_r(p-r,d), L_r(p-r,d-1) + P1, L_r(p-r,d+1) + P1, m + P2) - m,   m = min_k
+//   L_r(p-r,k)
+//
+// Bytes suffice: the cheapest disparity of p - r continues at no penalty, so min_d L_r <= C_max, every
+// L_r <= C_max + P2, and no intermediate exceeds C_max + P1 + P2 <= 255 (checked by Options::validate).
+#pragma once
+
+#include "sgm/kernels.h"
+#include "sgm/kernels/dispatch.inl"
+#include "sgm/kernels/winner.inl"
+
+namespace {
+
+using pomona::AggregateRow;
+using pomona::WinnerRow;
+using simd::U16;
+using simd::U8;
+
+constexpr int kMaxVectors = pomona::kMaxDisparities / simd::kBytes;
+template <int kVectors>
+constexpr int kCapacity = kVectors ? kVectors : kMaxVectors;
+
+/// The recurrence: path costs `previous` with smallest value `minimum` extended to a pixel with matching cost
+/// `cost`. Returns a vector whose smallest lane is the new minimum.
+template <int kVectors>
+POMONA_OP U8 extendPath(const U8* previous, U8 minimum, U8 p1, U8 p2, const U8* cost, U8* next, int vectors) {
+  const int n = kVectors ? kVectors : vectors;
+  // The 255 shifted in at either end never wins the `min` before P1 is added: the other neighbour is a real
+  // one.
+  const U8 below_first = simd::previousLane(previous[n - 1]), above_last = simd::nextLane(previous[0]);
+  const U8 jump = simd::add(minimum, p2);
+  U8 smallest = simd::broadcast(255);
+  for (int j = 0; j < n; ++j) {
+    const U8 below = j > 0 ? previous[j - 1] : below_first, above = j < n - 1 ? previous[j + 1] : above_last;
+    const U8 stepped = simd::add(simd::min(below, above), p1);
+    const U8 cheapest = simd::min(simd::min(previous[j], stepped), jump);
+    next[j] = simd::add(cost[j], simd::sub(cheapest, minimum));
+    smallest = simd::min(smallest, next[j]);
+  }
+  return smallest;
+}
+
+template <int kVectors>
+POMONA_OP void loadPixel(const std::uint8_t* p, U8* v, int vectors) {
+  for (int j = 0; j < (kVectors ? kVectors : vectors); ++j) v[j] = simd::load(p + j * simd::kBytes);
+}
+template <int kVectors>
+POMONA_OP void storePixel(std::uint8_t* p, const U8* v, int vectors) {
+  for (int j = 0; j < (kVectors ? kVectors : vectors); ++j) simd::store(p + j * simd::kBytes, v[j]);
+}
+
+/// Walks the row in steps of kStep and calls emit(x, cost, left, straight, right, horizontal) with the path
+/// costs of every pixel. The paths are updated in place: the one whose predecessor lies behind us is carried
+/// in registers.
+template <int kVectors, int kStep, bool kDiagonals, typename Emit>
+POMONA_OP void sweepRow(const AggregateRow& r, Emit&& emit) {
+  constexpr int kN = kCapacity<kVectors>;
+  constexpr int kBehind = kStep > 0 ? 0 : 2, kAhead = 2 - kBehind;
+  const int n = kVectors ? kVectors : r.vectors;
+  const std::ptrdiff_t pixel = static_cast<std::ptrdiff_t>(n) * simd::kBytes;
+  std::uint8_t *behind = r.path[kBehind] + pixel, *straight = r.path[1] + pixel,
+               *ahead = r.path[kAhead] + pixel;
+  std::uint32_t* minima = r.minima + 4;
+  const U8 p1 = simd::broadcast(r.p1);
+
+  std::ptrdiff_t x = kStep > 0 ? 0 : r.width - 1;
+  U8 carried[kN], horizontal[kN], horizontal_minimum = simd::broadcast(0),
+                                  carried_minimum = horizontal_minimum;
+  for (int j = 0; j < n; ++j)
+    carried[j] = horizontal[j] = horizontal_minimum;  // the guard pixel, and a fresh start
+
+  for (int i = 0; i < r.width; ++i, x += kStep) {
+    U8 cost[kN], previous[kN], to_behind[kN], to_straight[kN], to_ahead[kN], to_horizontal[kN];
+    loadPixel<kVectors>(r.cost + x * pixel, cost, n);
+    const U8 m3 = extendPath<kVectors>(horizontal, horizontal_minimum, p1, simd::broadcastQuad(r.p2[3] + x),
+                                       cost, to_horizontal, n);
+    const U8 straight_minimum = simd::broadcastQuad(minima + 4 * x + 1);
+    loadPixel<kVectors>(straight + x * pixel, previous, n);
+    const U8 m1 = extendPath<kVectors>(previous, straight_minimum, p1, simd::broadcastQuad(r.p2[1] + x), cost,
+                                       to_straight, n);
+    storePixel<kVectors>(straight + x * pixel, to_straight, n);
+    U8 m_behind = m1, m_ahead = m1;
+    if constexpr (kDiagonals) {
+      m_behind = extendPath<kVectors>(carried, carried_minimum, p1, simd::broadcastQuad(r.p2[kBehind] + x),
+                                      cost, to_behind, n);
+      carried_minimum = simd::broadcastQuad(minima + 4 * x + kBehind);
+      loadPixel<kVectors>(behind + x * pixel, carried, n);
+      storePixel<kVectors>(behind + x * pixel, to_behind, n);
+
+      const U8 ahead_minimum = simd::broadcastQuad(minima + 4 * (x + kStep) + kAhead);
+      loadPixel<kVectors>(ahead + (x + kStep) * pixel, previous, n);
+      m_ahead = extendPath<kVectors>(previous, ahead_minimum, p1, simd::broadcastQuad(r.p2[kAhead] + x), cost,
+                                     to_ahead, n);
+      storePixel<kVectors>(ahead + x * pixel, to_ahead, n);
+    }
+    const simd::Minima all =
+        kStep > 0 ? simd::minima(m_behind, m1, m_ahead, m3) : simd::minima(m_ahead, m1, m_behind, m3);
+    simd::storeMinima(minima + 4 * x, all);
+    horizontal_minimum = simd::lastMinimum(all);
+    for (int j = 0; j < n; ++j) horizontal[j] = to_horizontal[j];
+    emit(x, cost, to_behind, to_straight, to_ahead, to_horizontal);
+  }
+}
+
+/// Sum of the sweep's path costs for vector j, modulo 256.
+template <bool kDiagonals>
+POMONA_OP U8 byteSum(U8 behind, U8 straight, U8 ahead, U8 horizontal) {
+  const U8 cross = simd::add(straight, horizontal);
+  return kDiagonals ? simd::add(cross, simd::add(behind, ahead)) : cross;
+}
+template <bool kDiagonals>
+POMONA_OP void wordSum(U8 behind, U8 straight, U8 ahead, U8 horizontal, U16& low, U16& high) {
+  low = simd::addScaledLow<1>(straight, horizontal);
+  high = simd::addScaledHigh<1>(straight, horizontal);
+  if constexpr (kDiagonals) {
+    low = simd::add16(low, simd::addScaledLow<1>(behind, ahead));
+    high = simd::add16(high, simd::addScaledHigh<1>(behind, ahead));
+  }
+}
+
+template <int kVectors, bool kDiagonals, bool kWide>
+void firstPass(const AggregateRow& r) {
+  const int n = kVectors ? kVectors : r.vectors;
+  sweepRow<kVectors, 1, kDiagonals>(
+      r, [&](std::ptrdiff_t x, const U8*, const U8* b, const U8* s, const U8* a, const U8* h) {
+        for (int j = 0; j < n; ++j) {
+          const std::ptrdiff_t at = (x * n + j) * simd::kBytes;
+          if constexpr (kWide) {
+            U16 low, high;
+            wordSum<kDiagonals>(b[j], s[j], a[j], h[j], low, high);
+            auto* sums = static_cast<std::uint16_t*>(r.sums) + at;
+            simd::store16(sums, low);
+            simd::store16(sums + simd::kBytes / 2, high);
+          } else {
+            simd::store(static_cast<std::uint8_t*>(r.sums) + at, byteSum<kDiagonals>(b[j], s[j], a[j], h[j]));
+          }
+        }
+      });
+}
+
+/// Completes the sums. In bytes: each path exceeds its matching cost C by at most P2 (it is C plus a
+/// penalty), so a sweep of k <= 4 paths satisfies 0 <= sum - k C <= 4 P2 <= 252 and is known exactly from its
+/// value modulo 256.
+template <int kVectors, bool kDiagonals, bool kWide>
+void lastPass(const AggregateRow& r, const WinnerRow& w) {
+  const int n = kVectors ? kVectors : r.vectors;
+  Winner<kCapacity<kVectors>> winner(w, n, r.width);
+  sweepRow<kVectors, -1, kDiagonals>(r, [&](std::ptrdiff_t x, const U8* c, const U8* b, const U8* s,
+                                            const U8* a, const U8* h) {
+    U16 sums[2 * kCapacity<kVectors>];
+    for (int j = 0; j < n; ++j) {
+      const std::ptrdiff_t at = (x * n + j) * simd::kBytes;
+      if constexpr (kWide) {
+        wordSum<kDiagonals>(b[j], s[j], a[j], h[j], sums[2 * j], sums[2 * j + 1]);
+        const auto* first = static_cast<const std::uint16_t*>(r.sums) + at;
+        sums[2 * j] = simd::add16(sums[2 * j], simd::load16(first));
+        sums[2 * j + 1] = simd::add16(sums[2 * j + 1], simd::load16(first + simd::kBytes / 2));
+      } else {
+        constexpr int kPaths = kDiagonals ? 4 : 2;
+        const U8 twice = simd::add(c[j], c[j]), base = kDiagonals ? simd::add(twice, twice) : twice;
+        const U8 first = simd::sub(simd::load(static_cast<const std::uint8_t*>(r.sums) + at), base);
+        const U8 last = simd::sub(byteSum<kDiagonals>(b[j], s[j], a[j], h[j]), base);
+        sums[2 * j] = simd::add16(simd::addScaledLow<2 * kPaths>(last, c[j]), simd::widenLow(first));
+        sums[2 * j + 1] = simd::add16(simd::addScaledHigh<2 * kPaths>(last, c[j]), simd::widenHigh(first));
+      }
+    }
+    winner.template pixel<kVectors>(static_cast<int>(x), sums);
+  });
+  winner.finish();
+}
+
+template <int kVectors, typename F>
+POMONA_OP void withShape(const AggregateRow& r, F f) {
+  if (r.diagonals)
+    r.wide_sums ? f(Constant<1>{}, Constant<1>{}) : f(Constant<1>{}, Constant<0>{});
+  else
+    r.wide_sums ? f(Constant<0>{}, Constant<1>{}) : f(Constant<0>{}, Constant<0>{});
+}
+
+void aggregateFirst(const AggregateRow& r) {
+  withVectors(r.vectors, [&](auto v) {
+    withShape<decltype(v)::value>(r, [&](auto d, auto wide) {
+      firstPass<decltype(v)::value, decltype(d)::value, decltype(wide)::value>(r);
+    });
+  });
+}
+
+void aggregateLast(const AggregateRow& r, const WinnerRow& w) {
+  withVectors(r.vectors, [&](auto v) {
+    withShape<decltype(v)::value>(r, [&](auto d, auto wide) {
+      lastPass<decltype(v)::value, decltype(d)::value, decltype(wide)::value>(r, w);
+    });
+  });
+}
+
+}  // namespace

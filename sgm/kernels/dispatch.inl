@@ -1,0 +1,29 @@
+// Turns the run-time number of vectors per pixel into a compile-time one where that pays.
+#pragma once
+
+namespace {
+
+template <int kValue>
+struct Constant {
+  static constexpr int value = kValue;
+};
+
+/// Calls f(Constant<n>{}); n = 0 stands for "any number, read it at run time".
+template <typename F>
+inline __attribute__((always_inline)) void withVectors(int vectors, F f) {
+  if constexpr (simd::kUnrolledVectors >= 4) {
+    switch (vectors) {
+      case 1:
+        return f(Constant<1>{});
+      case 2:
+        return f(Constant<2>{});
+      case 3:
+        return f(Constant<3>{});
+      case 4:
+        return f(Constant<4>{});
+    }
+  }
+  f(Constant<0>{});
+}
+
+}  // namespace

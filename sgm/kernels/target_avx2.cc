@@ -1,0 +1,11 @@
+#include "core/simd/avx2.h"
+#include "sgm/kernels/aggregate.inl"
+#include "sgm/kernels/census.inl"
+#include "sgm/kernels/cost.inl"
+
+namespace pomona {
+extern const SgmKernels kSgmKernelsAvx2;
+const SgmKernels kSgmKernelsAvx2 = {
+    simd::kBytes, censusRow<std::uint8_t>, censusRow<std::uint16_t>, censusCost, tableCost, aggregateFirst,
+    aggregateLast};
+}  // namespace pomona

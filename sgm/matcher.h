@@ -1,0 +1,57 @@
+// From two gray views to raw disparities of both: cost, aggregation, winner-take-all, sub-pixel.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/image.h"
+#include "pomona/options.h"
+#include "sgm/aggregation.h"
+#include "sgm/census.h"
+#include "sgm/cost.h"
+
+namespace pomona {
+
+/// A rectified gray pair. The 8-bit views are always there; where the 16-bit ones are, census uses them
+/// instead.
+struct GrayPair {
+  ImageView<const std::uint8_t> left, right;
+  ImageView<const std::uint16_t> left16, right16;
+
+  bool isDeep() const { return !left16.empty(); }
+};
+
+struct MatchOptions {
+  int min_disparity = 0;
+  int disparities = 64;
+  CostOptions cost;
+  AggregationOptions aggregation;
+  WinnerOptions winner;
+};
+
+/// Unvalidated disparities, pixels, of the image's size.
+struct MatchMaps {
+  Image<float> disparity;        ///< of the left view; never NaN
+  Image<float> right_disparity;  ///< of the right view; NaN where no left pixel maps to
+  Image<float> margin;           ///< (second-best - best) sum per path: how clearly the winner won, >= 0
+  Image<std::uint8_t> state;     ///< PixelState: measured, or ambiguous where uniqueness fails
+
+  void resize(int width, int height);
+};
+
+class SgmMatcher {
+ public:
+  /// `table`: for kMutualInformation, the cost of every pair of 8-bit values (see mutual_information.h).
+  void match(const GrayPair& pair, const MatchOptions& options, std::span<const std::uint8_t> table,
+             const SgmKernels& kernels, MatchMaps& out, int threads);
+
+ private:
+  CensusTransform<std::uint8_t> census_;
+  CensusTransform<std::uint16_t> census16_;
+  CensusPlanes left_codes_, right_codes_;
+  MatchingCostRows cost_;
+  Aggregator aggregator_;
+  WinnerMaps winners_;
+};
+
+}  // namespace pomona

@@ -1,0 +1,156 @@
+#include "pyramid/laplacian.h"
+
+#include "pyramid/fusion.h"
+#include "tests/pyramid_support.h"
+#include "tests/reference/pyramid.h"
+
+namespace pomona {
+namespace {
+
+const std::vector<std::pair<int, int>> kSizes = {{1, 1},   {2, 1},   {1, 9},   {2, 2},   {7, 3},
+                                                 {31, 18}, {33, 32}, {64, 47}, {65, 65}, {130, 21}};
+
+Padded<float> randomMap(int width, int height, unsigned seed, float scale) {
+  std::mt19937 random(seed);
+  Padded<float> map(width, height, 1e30f);
+  map.fill([&](int, int, int) { return static_cast<float>(random() % 4096) * (scale / 4096.0f); });
+  return map;
+}
+
+reference::Map toTwin(ImageView<const float> in) {
+  reference::Map map(in.width, in.height);
+  for (int y = 0; y < in.height; ++y)
+    for (int x = 0; x < in.width; ++x) map.at(y, x) = in.at(y, x);
+  return map;
+}
+
+void expectNear(ImageView<const float> actual, const reference::Map& expected, double tolerance) {
+  ASSERT_EQ(actual.width, expected.width);
+  ASSERT_EQ(actual.height, expected.height);
+  for (int y = 0; y < actual.height; ++y)
+    for (int x = 0; x < actual.width; ++x)
+      ASSERT_NEAR(actual.at(y, x), expected.at(y, x), tolerance) << "at y " << y << ", x " << x;
+}
+
+TEST(GaussianPyramid, MatchesItsTwinOnEveryLevel) {
+  for (const auto& [width, height] : kSizes) {
+    SCOPED_TRACE(sizeText(width, height));
+    const Padded<float> map = randomMap(width, height, 1, 1000);
+    const std::vector<reference::Map> twin = reference::gaussianPyramid(toTwin(map.view()), 6);
+    GaussianPyramid pyramid;
+    forEachSetting([&](const PyramidKernels& kernels, int threads) {
+      pyramid.build(map.view(), 6, kernels, threads);
+      ASSERT_EQ(pyramid.levels(), static_cast<int>(twin.size()));
+      for (int i = 0; i < pyramid.levels(); ++i) expectNear(pyramid.level(i), twin[i], 5e-4);
+    });
+  }
+}
+
+TEST(LaplacianPyramid, MatchesItsTwinOnEveryLevel) {
+  for (const auto& [width, height] : kSizes) {
+    SCOPED_TRACE(sizeText(width, height));
+    const Padded<float> map = randomMap(width, height, 2, 1000);
+    const std::vector<reference::Map> twin = reference::laplacianPyramid(toTwin(map.view()), 6);
+    LaplacianPyramid pyramid;
+    forEachSetting([&](const PyramidKernels& kernels, int threads) {
+      pyramid.build(map.view(), 6, kernels, threads);
+      ASSERT_EQ(pyramid.levels(), static_cast<int>(twin.size()));
+      for (int i = 0; i < pyramid.levels(); ++i) expectNear(pyramid.level(i), twin[i], 5e-4);
+    });
+  }
+}
+
+TEST(LaplacianPyramid, ReconstructsPerfectlyAndIsTheSameOnEverySetting) {
+  for (const auto& [width, height] : kSizes)
+    for (int levels : {1, 2, 6, kMaxPyramidLevels}) {
+      SCOPED_TRACE(sizeText(width, height) + ", levels " + std::to_string(levels));
+      const Padded<float> map = randomMap(width, height, 3, 1000);
+      LaplacianPyramid pyramid;
+      Padded<float> first(width, height, -7.0f);
+      pyramid.build(map.view(), levels, pyramidKernels(Isa::kScalar), 1);
+      pyramid.collapse(first.view(), pyramidKernels(Isa::kScalar), 1);
+      expectNear(first.view(), toTwin(map.view()), 1e-4);
+      forEachSetting([&](const PyramidKernels& kernels, int threads) {
+        Padded<float> out(width, height, -7.0f);
+        pyramid.build(map.view(), levels, kernels, threads);
+        pyramid.collapse(out.view(), kernels, threads);
+        EXPECT_TRUE(out.sameBytes(first));
+      });
+    }
+}
+
+TEST(LaplacianPyramid, BandsOfAConstantAreZero) {
+  Padded<float> map(37, 22, 0.0f);
+  map.fill([](int, int, int) { return 640.0f; });
+  LaplacianPyramid pyramid;
+  pyramid.build(std::as_const(map).view(), 4, pyramidKernels(usableIsas().back()), 1);
+  ASSERT_EQ(pyramid.levels(), 4);
+  for (int i = 0; i < 3; ++i)
+    expectNear(pyramid.level(i), reference::Map(pyramid.level(i).width, pyramid.level(i).height, 0), 0);
+  expectNear(pyramid.level(3), reference::Map(5, 3, 640), 0);
+}
+
+TEST(FuseEqual, IsTheAverageForAnyNumberOfLevels) {
+  for (const auto& [width, height] : kSizes)
+    for (int levels : {1, 3, 6}) {
+      SCOPED_TRACE(sizeText(width, height) + ", levels " + std::to_string(levels));
+      const Padded<float> a = randomMap(width, height, 4, 200), b = randomMap(width, height, 5, 200);
+      reference::Map average(width, height);
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) average.at(y, x) = 0.5 * (double{a.at(y, x)} + b.at(y, x));
+      FusionScratch scratch;
+      Padded<float> first(width, height, -7.0f);
+      fuseEqual(a.view(), b.view(), levels, first.view(), scratch, pyramidKernels(Isa::kScalar), 1);
+      expectNear(first.view(), average, 1e-4);
+      forEachSetting([&](const PyramidKernels& kernels, int threads) {
+        Padded<float> out(width, height, -7.0f);
+        fuseEqual(a.view(), b.view(), levels, out.view(), scratch, kernels, threads);
+        EXPECT_TRUE(out.sameBytes(first));
+      });
+    }
+}
+
+TEST(FuseWeighted, MatchesItsTwinAndIsTheSameOnEverySetting) {
+  for (const auto& [width, height] : kSizes)
+    for (int levels : {1, 3, 6}) {
+      SCOPED_TRACE(sizeText(width, height) + ", levels " + std::to_string(levels));
+      const Padded<float> a = randomMap(width, height, 6, 200), b = randomMap(width, height, 7, 200);
+      const Padded<float> weight = randomMap(width, height, 8, 1);
+      const reference::Map twin =
+          reference::fuseWeighted(toTwin(a.view()), toTwin(b.view()), toTwin(weight.view()), levels);
+      FusionScratch scratch;
+      Padded<float> first(width, height, -7.0f);
+      fuseWeighted(a.view(), b.view(), weight.view(), levels, first.view(), scratch,
+                   pyramidKernels(Isa::kScalar), 1);
+      expectNear(first.view(), twin, 2e-4);
+      forEachSetting([&](const PyramidKernels& kernels, int threads) {
+        Padded<float> out(width, height, -7.0f);
+        fuseWeighted(a.view(), b.view(), weight.view(), levels, out.view(), scratch, kernels, threads);
+        EXPECT_TRUE(out.sameBytes(first));
+      });
+    }
+}
+
+TEST(FuseWeighted, FullWeightsSelectOneMapAndASeamIsBlendedMonotonically) {
+  Padded<float> a(64, 40, 0.0f), b(64, 40, 0.0f), weight(64, 40, 0.0f), out(64, 40, 0.0f);
+  a.fill([](int, int, int) { return 100.0f; });
+  b.fill([](int, int, int) { return 20.0f; });
+  FusionScratch scratch;
+  const PyramidKernels& kernels = pyramidKernels(usableIsas().back());
+  weight.fill([](int, int, int) { return 1.0f; });
+  fuseWeighted(a.view(), b.view(), weight.view(), 5, out.view(), scratch, kernels, 1);
+  expectNear(out.view(), reference::Map(64, 40, 100), 1e-4);
+  weight.fill([](int, int, int) { return 0.0f; });
+  fuseWeighted(a.view(), b.view(), weight.view(), 5, out.view(), scratch, kernels, 1);
+  expectNear(out.view(), reference::Map(64, 40, 20), 1e-4);
+  weight.fill([](int, int x, int) { return x < 32 ? 1.0f : 0.0f; });
+  fuseWeighted(a.view(), b.view(), weight.view(), 3, out.view(), scratch, kernels, 1);
+  EXPECT_NEAR(out.at(20, 0), 100, 1e-3);
+  EXPECT_NEAR(out.at(20, 63), 20, 1e-3);
+  EXPECT_GT(out.at(20, 30), out.at(20, 33));
+  EXPECT_LT(out.at(20, 30), 99);  // a hard cut would leave 100 here
+  for (int x = 0; x + 1 < 64; ++x) EXPECT_GE(out.at(20, x), out.at(20, x + 1)) << x;
+}
+
+}  // namespace
+}  // namespace pomona

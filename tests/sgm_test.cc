@@ -1,0 +1,280 @@
+#include "tests/reference/sgm.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "core/cpu.h"
+#include "pomona/pixel_state.h"
+#include "sgm/matcher.h"
+#include "sgm/mutual_information.h"
+
+namespace pomona {
+namespace {
+
+enum class Content { kNoise, kShifted, kConstant, kCheckerboard, kStep };
+
+template <typename T>
+struct TestPair {
+  Image<T> left, right;
+};
+
+std::uint32_t hash(std::uint32_t x) {
+  x ^= x >> 16;
+  x *= 0x7feb352du;
+  x ^= x >> 15;
+  x *= 0x846ca68bu;
+  return x ^ (x >> 16);
+}
+
+template <typename T>
+TestPair<T> makePair(int width, int height, Content content) {
+  TestPair<T> pair{Image<T>(width, height), Image<T>(width, height)};
+  const unsigned range = sizeof(T) == 1 ? 256 : 4096;
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const auto noise = [&](int column, int seed) {
+        return static_cast<T>(hash(static_cast<std::uint32_t>(y * 4099 + column + seed * 77777 + 31)) %
+                              range);
+      };
+      T l = 0, r = 0;
+      switch (content) {
+        case Content::kNoise:
+          l = noise(x, 0), r = noise(x, 1);
+          break;
+        case Content::kShifted:
+          l = noise(x, 0), r = noise(x + 3 + y / 8, 0);
+          break;
+        case Content::kConstant:
+          l = r = static_cast<T>(range - 1);
+          break;
+        case Content::kCheckerboard:
+          l = r = (x + y) % 2 ? static_cast<T>(range - 1) : 0;
+          break;
+        case Content::kStep:
+          l = x < width / 2 ? 0 : static_cast<T>(range - 1), r = y < height / 2 ? 0 : l;
+          break;
+      }
+      pair.left.row(y)[x] = l;
+      pair.right.row(y)[x] = r;
+    }
+  return pair;
+}
+
+struct Setup {
+  int width, height, disparities, min_disparity;
+  MatchingCost cost;
+  AggregationOptions aggregation;
+  Content content;
+};
+
+std::string describe(const Setup& s, Isa isa, int threads) {
+  return std::to_string(s.width) + "x" + std::to_string(s.height) + " D " + std::to_string(s.disparities) +
+         " from " + std::to_string(s.min_disparity) + " cost " + std::to_string(static_cast<int>(s.cost)) +
+         " paths " + std::to_string(s.aggregation.paths) + " P1 " + std::to_string(s.aggregation.p1) +
+         " P2 " + std::to_string(s.aggregation.p2) + " adaptation " +
+         std::to_string(static_cast<int>(s.aggregation.adaptation)) + " content " +
+         std::to_string(static_cast<int>(s.content)) + " isa " + std::string(name(isa)) + " threads " +
+         std::to_string(threads);
+}
+
+void expectEqual(const WinnerMaps& got, const reference::Match& want, const std::string& what) {
+  const int width = got.index.width();
+  for (int y = 0; y < got.index.height(); ++y)
+    for (int x = 0; x < width; ++x) {
+      const int i = y * width + x;
+      const auto value = [&](const Image<std::uint16_t>& map) { return static_cast<int>(map.row(y)[x]); };
+      const auto orNone = [](int v) { return v < 0 ? 0xFFFF : v; };
+      ASSERT_EQ(
+          std::make_tuple(value(got.index), value(got.best), value(got.below), value(got.above),
+                          value(got.second)),
+          std::make_tuple(want.index[i], want.best[i], want.below[i], want.above[i], orNone(want.second[i])))
+          << what << " at x " << x << " y " << y;
+      ASSERT_EQ(std::make_tuple(value(got.right_index), value(got.right_best), value(got.right_below),
+                                value(got.right_above)),
+                std::make_tuple(orNone(want.right_index[i]), orNone(want.right_best[i]),
+                                orNone(want.right_below[i]), orNone(want.right_above[i])))
+          << what << " at x " << x << " y " << y;
+    }
+}
+
+template <typename T>
+void compareWithTextbook(const Setup& s) {
+  const TestPair<T> pair = makePair<T>(s.width, s.height, s.content);
+  const TestPair<std::uint8_t> guide = makePair<std::uint8_t>(s.width, s.height, Content::kNoise);
+  const reference::Match want =
+      reference::matchCensus<T>(pair.left.view(), pair.right.view(), guide.left.view(), s.cost, s.aggregation,
+                                s.min_disparity, s.disparities);
+  for (Isa isa : usableIsas())
+    for (int threads : {1, 2, 7}) {
+      const SgmKernels& kernels = sgmKernels(isa);
+      CensusTransform<T> transform;
+      CensusPlanes left, right;
+      transform.compute(pair.left.view(), s.cost, left, kernels, threads);
+      transform.compute(pair.right.view(), s.cost, right, kernels, threads);
+      MatchingCostRows cost;
+      cost.prepareCensus(left, right, maximumCost(s.cost), makeRange(s.min_disparity, s.disparities, kernels),
+                         kernels, threads);
+      Aggregator aggregator;
+      WinnerMaps winners;
+      aggregator.run(cost, guide.left.view(), s.aggregation, kernels, winners, threads);
+      expectEqual(winners, want, describe(s, isa, threads));
+      if (testing::Test::HasFatalFailure()) return;
+    }
+}
+
+const AggregationOptions kSoft{8, 5, 60, 20, PenaltyAdaptation::kSoftIntensity};
+
+TEST(Sgm, EqualsTextbookForRaggedWidthsAndRanges) {
+  for (int width : {1, 2, 7, 31, 33, 65, 130})
+    for (int disparities : {1, 2, 3, 16, 63, 64, 65, 128, 129})
+      if (disparities <= width || disparities == 3)
+        compareWithTextbook<std::uint8_t>(
+            {width, 9, disparities, 0, MatchingCost::kCensus5x5, kSoft, Content::kShifted});
+}
+
+TEST(Sgm, EqualsTextbookForEveryCostAndPixelDepth) {
+  for (MatchingCost cost : {MatchingCost::kCensus5x5, MatchingCost::kCensus7x7, MatchingCost::kCensus9x7,
+                            MatchingCost::kCenterSymmetricCensus9x7})
+    for (Content content :
+         {Content::kNoise, Content::kShifted, Content::kConstant, Content::kCheckerboard, Content::kStep}) {
+      compareWithTextbook<std::uint8_t>({40, 17, 33, 0, cost, kSoft, content});
+      compareWithTextbook<std::uint16_t>({40, 17, 20, 0, cost, kSoft, content});
+    }
+}
+
+TEST(Sgm, EqualsTextbookForEveryPenaltySetting) {
+  // 63 is the last P2 whose partial sums fit a byte; 62 + 30 + 163 reaches the 8-bit bound exactly.
+  for (int paths : {4, 8})
+    for (auto [p1, p2] : {std::pair{1, 1}, {5, 63}, {5, 64}, {30, 163}, {60, 63}})
+      for (PenaltyAdaptation a : {PenaltyAdaptation::kConstant, PenaltyAdaptation::kInverseIntensity,
+                                  PenaltyAdaptation::kSoftIntensity})
+        for (Content content : {Content::kNoise, Content::kStep})
+          compareWithTextbook<std::uint8_t>(
+              {70, 20, 66, 0, MatchingCost::kCensus9x7, {paths, p1, p2, std::max(p1, p2 / 3), a}, content});
+}
+
+TEST(Sgm, EqualsTextbookForNegativeAndOffsetRanges) {
+  for (int min_disparity : {-70, -64, -9, -1, 1, 8, 40})
+    compareWithTextbook<std::uint8_t>(
+        {65, 12, 30, min_disparity, MatchingCost::kCensus5x5, kSoft, Content::kShifted});
+}
+
+TEST(Sgm, EqualsTextbookForThinImages) {
+  for (int height : {1, 2, 3})
+    for (int width : {1, 5, 40})
+      compareWithTextbook<std::uint8_t>(
+          {width, height, 4, 0, MatchingCost::kCensus7x7, kSoft, Content::kNoise});
+}
+
+TEST(Sgm, EqualsTextbookForTheWidestRange) {
+  compareWithTextbook<std::uint8_t>({1030, 2, 1024, 0, MatchingCost::kCensus5x5, kSoft, Content::kShifted});
+}
+
+TEST(Sgm, TableCostEqualsTextbook) {
+  const TestPair<std::uint8_t> pair = makePair<std::uint8_t>(50, 14, Content::kShifted);
+  std::vector<std::uint8_t> table(65536);
+  for (int i = 0; i < 65536; ++i)
+    table[i] = static_cast<std::uint8_t>(hash(static_cast<std::uint32_t>(i)) % 128);
+  const AggregationOptions o{8, 10, 90, 30, PenaltyAdaptation::kInverseIntensity};
+  const reference::Match want = reference::match(
+      {50, 14, 37, -3, o.paths, o.p1,
+       [&](int y, int x, int d) {
+         return table[256 * pair.left.row(y)[x] + pair.right.row(y)[std::clamp(x + 3 - d, 0, 49)]];
+       },
+       [&](int y, int x, int y2, int x2) {
+         return reference::adaptedPenalty(o, std::abs(pair.left.row(y)[x] - pair.left.row(y2)[x2]));
+       }});
+  for (Isa isa : usableIsas()) {
+    const SgmKernels& kernels = sgmKernels(isa);
+    MatchingCostRows cost;
+    cost.prepareTable(pair.left.view(), pair.right.view(), std::span<const std::uint8_t, 65536>(table), 127,
+                      makeRange(-3, 37, kernels), kernels, 1);
+    Aggregator aggregator;
+    WinnerMaps winners;
+    aggregator.run(cost, pair.left.view(), o, kernels, winners, 2);
+    expectEqual(winners, want, "table cost, isa " + std::string(name(isa)));
+  }
+}
+
+TEST(Sgm, MatcherRefinesAndMarksAmbiguousPixels) {
+  const TestPair<std::uint8_t> pair = makePair<std::uint8_t>(60, 16, Content::kShifted);
+  MatchOptions o{0, 24, {MatchingCost::kCensus5x5}, kSoft, {SubpixelMethod::kNone, 20}};
+  const reference::Match want = reference::matchCensus<std::uint8_t>(
+      pair.left.view(), pair.right.view(), pair.left.view(), o.cost.cost, o.aggregation, 0, 24);
+  SgmMatcher matcher;
+  for (SubpixelMethod method :
+       {SubpixelMethod::kNone, SubpixelMethod::kParabola, SubpixelMethod::kEquiangular}) {
+    o.winner.subpixel = method;
+    MatchMaps maps;
+    matcher.match({pair.left.view(), pair.right.view(), {}, {}}, o, {}, sgmKernels(usableIsas().back()), maps,
+                  2);
+    int ambiguous = 0;
+    for (int y = 0; y < 16; ++y)
+      for (int x = 0; x < 60; ++x) {
+        const int i = y * 60 + x, b = want.index[i];
+        const double below = want.below[i], best = want.best[i], above = want.above[i];
+        double expected = b;
+        if (b > 0 && b < 23 && method == SubpixelMethod::kParabola)
+          expected += (below - above) / (2 * (below - 2 * best + above));
+        if (b > 0 && b < 23 && method == SubpixelMethod::kEquiangular)
+          expected +=
+              below > above ? (below - above) / (2 * (below - best)) : (below - above) / (2 * (above - best));
+        EXPECT_NEAR(maps.disparity.row(y)[x], expected, 1e-5);
+        const bool unique = best <= 0.8 * want.second[i] + 1e-9;
+        EXPECT_EQ(maps.state.row(y)[x] == static_cast<std::uint8_t>(PixelState::kMeasured), unique);
+        EXPECT_NEAR(maps.margin.row(y)[x], (want.second[i] - best) / 8.0, 1e-4);
+        ambiguous += !unique;
+        if (want.right_index[i] < 0) {
+          EXPECT_TRUE(std::isnan(maps.right_disparity.row(y)[x]));
+        } else {
+          EXPECT_NEAR(maps.right_disparity.row(y)[x], want.right_index[i],
+                      method == SubpixelMethod::kNone || want.right_below[i] < 0 ? 0 : 0.5);
+        }
+      }
+    EXPECT_GT(ambiguous, 0);
+    EXPECT_LT(ambiguous, 60 * 16);
+  }
+}
+
+TEST(MutualInformation, PrefersThePairsThatOccurTogether) {
+  // The right view is the left one under a non-monotone map of its values: census fails, mutual information
+  // must not.
+  const TestPair<std::uint8_t> pair = makePair<std::uint8_t>(200, 100, Content::kNoise);
+  Image<std::uint8_t> left(200, 100), right(200, 100);
+  Image<float> disparity(200, 100);
+  for (int y = 0; y < 100; ++y)
+    for (int x = 0; x < 200; ++x) {
+      left.row(y)[x] = static_cast<std::uint8_t>(pair.left.row(y)[x] / 32 * 32 + 16);
+      right.row(y)[x] = static_cast<std::uint8_t>((left.row(y)[x] * 3 + 40) % 256);
+      disparity.row(y)[x] = x % 10 == 0 ? std::nanf("") : 0.0f;
+    }
+  MutualInformation mi;
+  mi.update(left.view(), right.view(), disparity.view());
+  const auto& table = mi.table();
+  EXPECT_EQ(*std::max_element(table.begin(), table.end()), MutualInformation::kMaximumCost);
+  for (int i = 16; i < 256; i += 32)
+    for (int k = 16; k < 256; k += 32) {
+      const int partner = (i * 3 + 40) % 256, other = (k * 3 + 40) % 256;
+      if (i != k) {
+        EXPECT_LT(table[256 * i + partner] + 20, table[256 * i + other]) << i << ' ' << k;
+      }
+    }
+}
+
+TEST(MutualInformation, NoValidPixelCostsNothing) {
+  Image<std::uint8_t> gray(4, 4);
+  Image<float> disparity(4, 4);
+  for (int y = 0; y < 4; ++y)
+    for (int x = 0; x < 4; ++x) gray.row(y)[x] = 7, disparity.row(y)[x] = std::nanf("");
+  MutualInformation mi;
+  mi.update(gray.view(), gray.view(), disparity.view());
+  for (std::uint8_t c : mi.table()) ASSERT_EQ(c, 0);
+}
+
+}  // namespace
+}  // namespace pomona
