@@ -93,12 +93,12 @@ void printSummary(const ComputeArguments& arguments, const SearchRange& range, c
   print("coverage  %.2f %% (%s)", percent * known, arguments.mode.c_str());
   for (std::size_t state = 0; state < pixels_in_state.size(); ++state)
     if (pixels_in_state[state] > 0)
-      print("  %-22s %6.2f %%", std::string(name(static_cast<PixelState>(state))).c_str(),
+      print("  %-28s %6.2f %%", std::string(name(static_cast<PixelState>(state))).c_str(),
             percent * pixels_in_state[state]);
   print("time      %.1f ms (%s)", milliseconds, arguments.preset.c_str());
   if (arguments.timings)
     for (const StageTiming& timing : result.timings)
-      print("  %-22s %8.2f ms", std::string(timing.stage).c_str(), timing.milliseconds);
+      print("  %-28s %8.2f ms", std::string(timing.stage).c_str(), timing.milliseconds);
 }
 
 void printScore(const Score& score) {
