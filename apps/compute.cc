@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdarg>
 #include <cstdint>
 #include <cstdio>
 #include <iostream>
@@ -36,10 +37,12 @@ struct SearchRange {
   std::string source;  // where the upper end comes from
 };
 
-template <typename... Values>
-void print(const char* format, Values... values) {
+[[gnu::format(printf, 1, 2)]] void print(const char* format, ...) {
   std::array<char, 512> line;
-  std::snprintf(line.data(), line.size(), format, values...);
+  std::va_list values;
+  va_start(values, format);
+  std::vsnprintf(line.data(), line.size(), format, values);
+  va_end(values);
   std::cout << line.data() << '\n';
 }
 
@@ -86,16 +89,16 @@ void printSummary(const ComputeArguments& arguments, const SearchRange& range, c
   const double percent = 100.0 / static_cast<double>(result.disparity.total());
   print("size      %d x %d", result.disparity.cols, result.disparity.rows);
   print("searched  %d to %d px (%s)", range.min, range.min + range.count - 1, range.source.c_str());
-  print("found     %.2f to %.2f px", low, high);
+  if (known > 0) print("found     %.2f to %.2f px", low, high);
   print("coverage  %.2f %% (%s)", percent * known, arguments.mode.c_str());
   for (std::size_t state = 0; state < pixels_in_state.size(); ++state)
     if (pixels_in_state[state] > 0)
-      print("  %-22s %6.2f %%", std::string(name(static_cast<PixelState>(state))).c_str(),
+      print("  %-28s %6.2f %%", std::string(name(static_cast<PixelState>(state))).c_str(),
             percent * pixels_in_state[state]);
   print("time      %.1f ms (%s)", milliseconds, arguments.preset.c_str());
   if (arguments.timings)
     for (const StageTiming& timing : result.timings)
-      print("  %-22s %8.2f ms", std::string(timing.stage).c_str(), timing.milliseconds);
+      print("  %-28s %8.2f ms", std::string(timing.stage).c_str(), timing.milliseconds);
 }
 
 void printScore(const Score& score) {
