@@ -82,7 +82,7 @@ void Options::validate() const {
   if (aggregation.adaptation == PenaltyAdaptation::kSoftIntensity)
     requireRange("aggregation.p2_min", aggregation.p2_min, aggregation.p1, aggregation.p2);
 
-  requireEnum("winner.subpixel", winner.subpixel, SubpixelMethod::kEquiangular);
+  requireEnum("winner.subpixel", winner.subpixel, SubpixelMethod::kFitted);
   requireRange("winner.uniqueness_percent", winner.uniqueness_percent, 0, 100);
 
   requireRange("validation.left_right_px", validation.left_right_px, -1e6, 1e6);

@@ -18,6 +18,16 @@ float equiangularOffset(int below, int best, int above) {
   return 0.5f * static_cast<float>(below - above) / static_cast<float>(std::max(below, above) - best);
 }
 
+/// f(r) = 1/2 - a r - (1/2 - a) r^2 towards the smaller of the two sides, r their ratio; bench/subpixel fits
+/// a.
+float fittedOffset(int below, int best, int above) {
+  constexpr float kLinear = 0.42f;
+  const float down = static_cast<float>(below - best), up = static_cast<float>(above - best);
+  const float r = std::min(down, up) / std::max(down, up);
+  const float offset = 0.5f - r * (kLinear + (0.5f - kLinear) * r);
+  return down < up ? -offset : offset;
+}
+
 /// One row of one view: what winner-take-all found, and how far the disparity lies from whole pixels.
 struct WinnerView {
   const std::uint16_t *index, *best, *below, *above;
@@ -40,6 +50,8 @@ void refineRow(const WinnerView& w, int width, const MatchOptions& o, float* dis
       return refineRow(w, width, o, disparity, parabolaOffset);
     case SubpixelMethod::kEquiangular:
       return refineRow(w, width, o, disparity, equiangularOffset);
+    case SubpixelMethod::kFitted:
+      return refineRow(w, width, o, disparity, fittedOffset);
   }
 }
 

@@ -44,10 +44,11 @@ enum class SubpixelMethod {
   kNone,         ///< whole pixels
   kParabola,     ///< vertex of the parabola through three costs
   kEquiangular,  ///< apex of two lines of equal and opposite slope (Shimizu & Okutomi 2001)
+  kFitted,       ///< a curve fitted to the blended cost on rendered scenes (bench/subpixel)
 };
 
 struct WinnerOptions {
-  SubpixelMethod subpixel = SubpixelMethod::kEquiangular;
+  SubpixelMethod subpixel = SubpixelMethod::kFitted;
   /// Reject a pixel if its best cost is not at least this many percent below the best cost found more than
   /// one disparity away. 0 accepts everything; 0..100.
   int uniqueness_percent = 0;
