@@ -14,10 +14,11 @@ namespace pomona {
 struct HoleFillInput {
   GuideView guide;                         ///< the left image
   ImageView<const float> right_disparity;  ///< the right view's map, d = x_left - x_right; NaN where unknown
-  /// The last resort, asked for only if a hole needs it: a map in pixels of this one; may be empty or hold NaN.
+  /// The last resort, asked for only if a hole needs it: a map in pixels of this one; may be empty or hold
+  /// NaN.
   FunctionRef<ImageView<const float>()> coarse;
-  int search_radius_px = 200;              ///< length of a search ray, >= 0
-  float fallback_disparity = 0;            ///< where the whole map offers nothing
+  int search_radius_px = 200;    ///< length of a search ray, >= 0
+  float fallback_disparity = 0;  ///< where the whole map offers nothing
 };
 
 /// What fillHoles() keeps from one call to the next.

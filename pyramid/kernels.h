@@ -1,4 +1,4 @@
-// The row loops of scaling, pyramids and hole filling, one table of them per instruction set.
+// The inner loops of scaling, pyramids, segments and hole filling, one table of them per instruction set.
 //
 // Every table gives the same bytes: integer sums are exact, float expressions are evaluated per element in
 // the order written here, and nothing is contracted. Rows need no alignment and may have any length >= 0.
@@ -55,6 +55,14 @@ struct PyramidKernels {
 
   /// One step along a ray: out = open & saturating(previous + 1); `open` is 0 at a source, else 0xffff.
   void (*advanceRays)(const std::uint16_t* previous, const std::uint16_t* open, int n, std::uint16_t* out);
+
+  /// out[i] = |a[i] - b[i]|
+  void (*difference1)(const std::uint8_t* a, const std::uint8_t* b, int n, std::uint8_t* out);
+  /// The same for pixels of three interleaved channels: the largest of their differences.
+  void (*largestDifference3)(const std::uint8_t* a, const std::uint8_t* b, int n, std::uint8_t* out);
+  /// How many of n points have |((a x + b y) + c) - d| < tolerance.
+  int (*countNearPlane)(const float* x, const float* y, const float* d, int n, float a, float b, float c,
+                        float tolerance);
 
   /// out[i] = the bytes of pixel i, the first in the lowest place
   void (*packColors)(const std::uint8_t* in, int channels, int n, std::uint32_t* out);
