@@ -10,6 +10,7 @@
 #include "engine/confidence.h"
 #include "engine/hierarchical_mi.h"
 #include "engine/input.h"
+#include "engine/refinement.h"
 #include "engine/sparse_stage.h"
 #include "pyramid/hole_fill.h"
 
@@ -34,6 +35,7 @@ struct StereoEngine::State {
   SparseStage sparse;
   CoarseStage coarse;
   HoleFillScratch hole_fill;
+  Refinement refinement;
   Image<float> confidence;
   StereoResult result;
 
@@ -46,7 +48,7 @@ struct StereoEngine::State {
     return options.mode == OutputMode::kDense && options.completion.method == CompletionMethod::kPaper;
   }
   void fillWithCoarse(const SparseStage::Settings& settings);
-  void complete(const SparseStage::Settings& settings);
+  void complete(const SparseStage::Settings& settings, StageClock& clock);
   void publish();
 };
 
@@ -81,7 +83,7 @@ void StereoEngine::State::fillWithCoarse(const SparseStage::Settings& settings) 
   });
 }
 
-void StereoEngine::State::complete(const SparseStage::Settings& settings) {
+void StereoEngine::State::complete(const SparseStage::Settings& settings, StageClock& clock) {
   MatchMaps& maps = sparse.maps();
   const auto coarse_map = [&] {
     return coarse.run(input.gray(), input.left(), settings, options.completion);
@@ -92,6 +94,8 @@ void StereoEngine::State::complete(const SparseStage::Settings& settings) {
              .search_radius_px = options.completion.search_radius_px,
              .fallback_disparity = static_cast<float>(options.min_disparity)},
             maps.disparity.view(), maps.state.view(), hole_fill, pyramidKernels(isa), threads);
+  clock.lap("completion");
+  refinement.run(maps.disparity, input.left(), options.completion, filterKernels(isa), threads, clock);
 }
 
 void StereoEngine::State::publish() {
@@ -131,10 +135,7 @@ const StereoResult& StereoEngine::compute(const cv::Mat& left, const cv::Mat& ri
       clock.lap("mutual information");
     }
     s.sparse.run(s.input.gray(), settings, clock);
-    if (s.options.mode == OutputMode::kDense) {
-      s.complete(settings);
-      clock.lap("completion");
-    }
+    if (s.options.mode == OutputMode::kDense) s.complete(settings, clock);
   }
   estimateConfidence(s.sparse.maps(), s.options.aggregation, s.confidence, s.threads);
   clock.lap("confidence");

@@ -89,6 +89,7 @@ void Options::validate() const {
 
   requireEnum("completion.method", completion.method, CompletionMethod::kPaper);
   requireRange("completion.search_radius_px", completion.search_radius_px, 1, 1 << 20);
+  requireOneOf("completion.refine_radius_px", completion.refine_radius_px, {2, 3});
   requireRange("completion.sigma_space_px", completion.sigma_space_px, 0.1, 100);
   requireRange("completion.sigma_range", completion.sigma_range, 0.1, 1000);
   requireRange("completion.pyramid_levels", completion.pyramid_levels, 1, 16);

@@ -413,6 +413,8 @@ TEST(Options, RefusesEveryValueOutOfRange) {
                 {"validation.median_size is 7", "0, 3, 5"});
   expectRefused(with([](Options& o) { o.completion.search_radius_px = 0; }),
                 {"completion.search_radius_px is 0"});
+  expectRefused(with([](Options& o) { o.completion.refine_radius_px = 4; }),
+                {"completion.refine_radius_px is 4", "2, 3"});
   expectRefused(with([](Options& o) { o.completion.sigma_space_px = kNan; }),
                 {"completion.sigma_space_px is nan"});
   expectRefused(with([](Options& o) { o.completion.sigma_range = 0; }), {"completion.sigma_range is 0"});
