@@ -35,10 +35,15 @@ struct GuidedRow {
   std::ptrdiff_t stride;  ///< of both, in elements
 };
 
-/// Of filters/weighted_median.h: the window's reach, in x and in y; the binary logarithm that a colour
-/// difference, summed over three channels, takes from the weight: log2(e) / (3 * 5).
-inline constexpr int kWeightedMedianRadius = 3;
-inline constexpr float kMedianColorScale = 0.0961796694f;
+/// The window of filters/weighted_median.h, in reading order.
+struct MedianWindow {
+  static constexpr int kRadius = 5;
+  static constexpr int kTaps = 61;  ///< every other pixel of 11 x 11
+
+  std::int32_t offset[kTaps];  ///< from the pixel, in elements
+  float log_weight[kTaps];     ///< binary logarithm of the spatial weight, <= 0
+  float color_scale;           ///< taken from it per unit of the colour difference, summed over the channels
+};
 
 /// Of filters/plane_refine.h.
 inline constexpr float kPlaneDisparityTolerance_px = 1.0f;
@@ -53,12 +58,11 @@ struct FilterKernels {
   void (*median5x5)(const float* const* rows, int width, float* out);
   /// kBilateralBlock pixels of the joint bilateral filter, NaN where unknown, see filters/joint_bilateral.h.
   void (*jointBilateral)(const BilateralWindow& window, float* out);
-  /// near[x] = 1 if a known pixel of the 3 x 3 around x differs by more than `threshold_px` from pixel x, else
-  /// 0.
+  /// near[x] = 1 if a known pixel of the 3 x 3 around x differs by more than `threshold_px` from pixel x,
+  /// else 0.
   void (*nearJumps)(const GuidedRow& row, int width, float threshold_px, std::uint8_t* near);
-  /// out[x] = the weighted median around x, see filters/weighted_median.h, for the `count` known pixels whose
-  /// columns x are given. `log_weight`: binary logarithms of the spatial weights, row by row, <= 0.
-  void (*weightedMedian)(const GuidedRow& row, const float* log_weight, const std::int32_t* columns,
+  /// out[x] = the weighted median around x, for the `count` known pixels whose columns x are given.
+  void (*weightedMedian)(const GuidedRow& row, const MedianWindow& window, const std::int32_t* columns,
                          int count, float* out);
   /// One row of filters/plane_refine.h, for a window radius of 2 and of 3.
   void (*refinePlanes[2])(const GuidedRow& row, int width, float* out);

@@ -1,7 +1,6 @@
 #include "filters/weighted_median.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -10,21 +9,24 @@
 namespace pomona {
 namespace {
 
-constexpr int kRadius = kWeightedMedianRadius;
-constexpr int kSide = 2 * kRadius + 1;
 constexpr float kJump_px = 1.0f;
-constexpr double kDistanceScale_px = 5;
+constexpr double kDistanceScale_px = 9;
+constexpr double kColorScale = 8;
 constexpr int kSegment = 1024;  // columns of one kernel call at most
 
-using SpatialWeights = std::array<float, kSide * kSide>;
-
-SpatialWeights logWeights() {
-  SpatialWeights weights;
-  float* next = weights.data();
+MedianWindow makeWindow(std::ptrdiff_t stride) {
+  constexpr int kRadius = MedianWindow::kRadius;
+  MedianWindow window;
+  int tap = 0;
   for (int dy = -kRadius; dy <= kRadius; ++dy)
-    for (int dx = -kRadius; dx <= kRadius; ++dx)
-      *next++ = static_cast<float>(-std::sqrt(dx * dx + dy * dy) * std::numbers::log2e / kDistanceScale_px);
-  return weights;
+    for (int dx = -kRadius; dx <= kRadius; ++dx) {
+      if ((dx + dy) % 2 != 0) continue;
+      const double distance = std::sqrt(dx * dx + dy * dy);
+      window.offset[tap] = static_cast<std::int32_t>(dy * stride + dx);
+      window.log_weight[tap++] = static_cast<float>(-distance * std::numbers::log2e / kDistanceScale_px);
+    }
+  window.color_scale = static_cast<float>(std::numbers::log2e / (3 * kColorScale));
+  return window;
 }
 
 /// Columns in [begin, end) that are near a jump; returns how many.
@@ -42,9 +44,9 @@ int chosenColumns(const std::uint8_t* near_jump, const float* disparity, int beg
 
 void weightedMedian(ImageView<const float> in, GuideView guide, ImageView<float> out,
                     WeightedMedianScratch& scratch, const FilterKernels& kernels, int threads) {
-  const SpatialWeights log_weight = logWeights();
   const int width = in.width;
-  scratch.plane.set(in, guide, kRadius, threads);
+  scratch.plane.set(in, guide, MedianWindow::kRadius, threads);
+  const MedianWindow window = makeWindow(scratch.plane.row(0).stride);
   scratch.near_jump.resize(width, in.height);
   parallelStrips(threads, in.height, 4, [&](int y_begin, int y_end) {
     for (int y = y_begin; y < y_end; ++y) {
@@ -55,7 +57,7 @@ void weightedMedian(ImageView<const float> in, GuideView guide, ImageView<float>
       std::int32_t columns[kSegment];
       for (int x = 0; x < width; x += kSegment) {
         const int count = chosenColumns(near_jump, row.disparity, x, std::min(width, x + kSegment), columns);
-        kernels.weightedMedian(row, log_weight.data(), columns, count, out.row(y));
+        kernels.weightedMedian(row, window, columns, count, out.row(y));
       }
     }
   });

@@ -20,8 +20,8 @@ inline void addWindowRow(const GuidedRow& row, int x, int dy, Floats centre, Int
   for (int dx = -kRadius; dx <= kRadius; ++dx) {
     const float step = static_cast<float>(dx);
     const Floats dz = load(disparity + dx) - centre;
-    const Ints alike = allChannelsBelow(absoluteDifference(loadColors(color + dx), centre_color),
-                                        kPlaneColorTolerance);
+    const Ints alike =
+        allChannelsBelow(absoluteDifference(loadColors(color + dx), centre_color), kPlaneColorTolerance);
     const Ints taken = (max(dz, -dz) < kPlaneDisparityTolerance_px) & alike;
     const Floats one = taken ? broadcast(1.0f) : Floats{};
     const Floats value = taken ? dz : Floats{};

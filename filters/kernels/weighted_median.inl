@@ -8,8 +8,6 @@
 namespace pomona {
 namespace {
 
-constexpr int kMedianSide = 2 * kWeightedMedianRadius + 1;
-
 /// Elements that lie apart from each other in memory.
 inline Ints gather(const void* base, Ints index) {
 #if defined(__AVX512F__)
@@ -29,86 +27,98 @@ inline Ints orderedBits(Ints bits) {
   return bits ^ (bits >> 31 & 0x7FFFFFFF);
 }
 
-/// The window of each lane's pixel: ordered bits of the disparities, and their weights.
-struct WeightedWindow {
-  Ints key[kMedianSide][kMedianSide];
-  Floats weight[kMedianSide][kMedianSide];
+constexpr int kMedianGroup = 8;  ///< taps that are worked on side by side
+constexpr int kMedianSlots = (MedianWindow::kTaps + kMedianGroup - 1) / kMedianGroup * kMedianGroup;
+
+/// The window of each lane's pixel: ordered bits of the disparities, and their weights. Unknown disparities,
+/// and the slots after the last tap, repeat the centre's key with a weight of 0.
+struct WeightedTaps {
+  Ints key[kMedianSlots];
+  Floats weight[kMedianSlots];
 };
 
-/// The weight of one window row: 2^(log_weight - scaled colour difference); 0 where the disparity is unknown.
-inline void readWindowRow(const float* disparity, const std::uint32_t* color, const float* log_weight,
-                          Ints columns, Ints centre_color, Ints (&key)[kMedianSide],
-                          Floats (&weight)[kMedianSide]) {
-  Ints known[kMedianSide];
-#pragma GCC unroll 16
-  for (int i = 0; i < kMedianSide; ++i) {
-    const int dx = i - kWeightedMedianRadius;
-    const Ints bits = gather(disparity + dx, columns);
-    const Ints difference = sumOfChannels(absoluteDifference(gather(color + dx, columns), centre_color));
+/// kCount taps from the `first` one on.
+template <int kCount>
+inline void readTaps(const GuidedRow& row, const MedianWindow& window, int first, Ints columns, Ints centre,
+                     Ints centre_color, WeightedTaps& taps) {
+  Floats weight[kCount];
+  Ints known[kCount];
+#pragma GCC unroll 8
+  for (int i = 0; i < kCount; ++i) {
+    const std::int32_t offset = window.offset[first + i];
+    const Ints bits = gather(row.disparity + offset, columns);
+    const Ints difference =
+        sumOfChannels(absoluteDifference(gather(row.color + offset, columns), centre_color));
     known[i] = ~isNan(floatsOf(bits));
-    key[i] = orderedBits(bits);
-    weight[i] = log_weight[i] - __builtin_convertvector(difference, Floats) * kMedianColorScale;
+    taps.key[first + i] = orderedBits(known[i] ? bits : centre);
+    weight[i] =
+        window.log_weight[first + i] - __builtin_convertvector(difference, Floats) * window.color_scale;
   }
   exp2NonPositive(weight);
-#pragma GCC unroll 16
-  for (int i = 0; i < kMedianSide; ++i) weight[i] = floatsOf(bitsOf(weight[i]) & known[i]);
+#pragma GCC unroll 8
+  for (int i = 0; i < kCount; ++i) taps.weight[first + i] = floatsOf(bitsOf(weight[i]) & known[i]);
+}
+
+inline void readWindow(const GuidedRow& row, const MedianWindow& window, Ints columns, WeightedTaps& taps) {
+  constexpr int kTaps = MedianWindow::kTaps;
+  const Ints centre = gather(row.disparity, columns), centre_color = gather(row.color, columns);
+  int i = 0;
+  for (; i + kMedianGroup <= kTaps; i += kMedianGroup)
+    readTaps<kMedianGroup>(row, window, i, columns, centre, centre_color, taps);
+  readTaps<kTaps % kMedianGroup>(row, window, i, columns, centre, centre_color, taps);
+  for (i = kTaps; i < kMedianSlots; ++i) {
+    taps.key[i] = orderedBits(centre);
+    taps.weight[i] = Floats{};
+  }
 }
 
 /// The weights of all keys up to `bound`. Adding in one fixed order makes this sum, though rounded, a
 /// monotone function of `bound`.
-inline Floats weightUpTo(const WeightedWindow& window, Ints bound) {
-  Floats sum[kMedianSide] = {};
-  for (int row = 0; row < kMedianSide; ++row)
-#pragma GCC unroll 16
-    for (int i = 0; i < kMedianSide; ++i)
-      sum[i] += window.key[row][i] <= bound ? window.weight[row][i] : Floats{};
+inline Floats weightUpTo(const WeightedTaps& taps, Ints bound) {
+  Floats sum[kMedianGroup] = {};
+  for (int first = 0; first < kMedianSlots; first += kMedianGroup)
+#pragma GCC unroll 8
+    for (int i = 0; i < kMedianGroup; ++i)
+      sum[i] += taps.key[first + i] <= bound ? taps.weight[first + i] : Floats{};
   Floats total = sum[0];
-  for (int i = 1; i < kMedianSide; ++i) total += sum[i];
+  for (int i = 1; i < kMedianGroup; ++i) total += sum[i];
   return total;
 }
 
-/// The bits needed for the largest lane, taken as an unsigned number.
-inline int bitWidth(Ints v) {
+/// The smallest `bits` such that 2^bits is above high - low in every lane; low <= high.
+inline int bitsToSearch(Ints low, Ints high) {
   std::uint32_t all = 0;
-  for (int i = 0; i < kFloatLanes; ++i) all |= static_cast<std::uint32_t>(v[i]);
+  for (int i = 0; i < kFloatLanes; ++i)
+    all |= static_cast<std::uint32_t>(high[i]) - static_cast<std::uint32_t>(low[i]);
   return all == 0 ? 0 : 32 - __builtin_clz(all);
 }
 
 /// The smallest key up to which there is half of the weight, by bisection.
-inline Ints weightedMedianKey(const WeightedWindow& window, Ints centre_key) {
-  Ints low = centre_key, high = centre_key;
-  for (int row = 0; row < kMedianSide; ++row)
-#pragma GCC unroll 16
-    for (int i = 0; i < kMedianSide; ++i) {
-      const Ints key = bitsOf(window.weight[row][i]) == 0 ? centre_key : window.key[row][i];
-      low = key < low ? key : low;
-      high = key > high ? key : high;
-    }
-  const Floats half = weightUpTo(window, high) * 0.5f;
-  for (int bits = bitWidth(high - low); bits > 0; --bits) {
+inline Ints weightedMedianKey(const WeightedTaps& taps) {
+  Ints low = taps.key[0], high = low;
+  for (const Ints& key : taps.key) {
+    low = key < low ? key : low;
+    high = key > high ? key : high;
+  }
+  const Floats half = weightUpTo(taps, high) * 0.5f;
+  for (int bits = bitsToSearch(low, high); bits > 0; --bits) {
     const Ints middle = (low & high) + ((low ^ high) >> 1);
-    const Ints enough = weightUpTo(window, middle) >= half;
+    const Ints enough = weightUpTo(taps, middle) >= half;
     high = enough ? middle : high;
     low = enough ? low : middle + 1;
   }
   return high;
 }
 
-void weightedMedianAt(const GuidedRow& row, const float* log_weight, const std::int32_t* columns, int count,
-                      float* out) {
+void weightedMedianAt(const GuidedRow& row, const MedianWindow& window, const std::int32_t* columns,
+                      int count, float* out) {
   for (int begin = 0; begin < count; begin += kFloatLanes) {
     const int lanes = count - begin < kFloatLanes ? count - begin : kFloatLanes;
     Ints x;
     for (int i = 0; i < kFloatLanes; ++i) x[i] = columns[begin + (i < lanes ? i : 0)];
-    const Ints centre_color = gather(row.color, x);
-    WeightedWindow window;
-    for (int i = 0; i < kMedianSide; ++i) {
-      const std::ptrdiff_t offset = (i - kWeightedMedianRadius) * row.stride;
-      readWindowRow(row.disparity + offset, row.color + offset, log_weight + i * kMedianSide, x, centre_color,
-                    window.key[i], window.weight[i]);
-    }
-    const Ints centre_key = window.key[kWeightedMedianRadius][kWeightedMedianRadius];
-    const Floats median = floatsOf(orderedBits(weightedMedianKey(window, centre_key)));
+    WeightedTaps taps;
+    readWindow(row, window, x, taps);
+    const Floats median = floatsOf(orderedBits(weightedMedianKey(taps)));
     for (int i = 0; i < lanes; ++i) out[x[i]] = median[i];
   }
 }
