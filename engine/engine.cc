@@ -10,6 +10,7 @@
 #include "engine/confidence.h"
 #include "engine/hierarchical_mi.h"
 #include "engine/input.h"
+#include "engine/refinement.h"
 #include "engine/sparse_stage.h"
 #include "pyramid/hole_fill.h"
 #include "pyramid/plane_fill.h"
@@ -36,6 +37,7 @@ struct StereoEngine::State {
   CoarseStage coarse;
   PlaneFillScratch plane_fill;
   HoleFillScratch hole_fill;
+  Refinement refinement;
   Image<float> confidence;
   StereoResult result;
 
@@ -48,7 +50,7 @@ struct StereoEngine::State {
     return options.mode == OutputMode::kDense && options.completion.method == method;
   }
   void fillWithCoarse(const SparseStage::Settings& settings);
-  void complete(const SparseStage::Settings& settings);
+  void complete(const SparseStage::Settings& settings, StageClock& clock);
   void publish();
 };
 
@@ -87,7 +89,7 @@ void StereoEngine::State::fillWithCoarse(const SparseStage::Settings& settings) 
   });
 }
 
-void StereoEngine::State::complete(const SparseStage::Settings& settings) {
+void StereoEngine::State::complete(const SparseStage::Settings& settings, StageClock& clock) {
   MatchMaps& maps = sparse.maps();
   const CompletionOptions& completion = options.completion;
   const float min_disparity = static_cast<float>(options.min_disparity);
@@ -98,6 +100,7 @@ void StereoEngine::State::complete(const SparseStage::Settings& settings) {
                     .min_disparity = min_disparity,
                     .max_disparity = static_cast<float>(options.min_disparity + options.num_disparities - 1)},
                    maps.disparity.view(), maps.state.view(), plane_fill, pyramidKernels(isa), threads);
+  clock.lap("segment planes");
   const auto coarse_map = [&] { return coarse.run(input.views(), settings, completion); };
   fillHoles({.guide = input.views().guide,
              .right_disparity = maps.right_disparity.view(),
@@ -105,6 +108,8 @@ void StereoEngine::State::complete(const SparseStage::Settings& settings) {
              .search_radius_px = completion.search_radius_px,
              .fallback_disparity = min_disparity},
             maps.disparity.view(), maps.state.view(), hole_fill, pyramidKernels(isa), threads);
+  clock.lap("hole filling");
+  refinement.run(maps.disparity, input.views().guide, options.completion, filterKernels(isa), threads, clock);
 }
 
 void StereoEngine::State::publish() {
@@ -144,10 +149,7 @@ const StereoResult& StereoEngine::compute(const cv::Mat& left, const cv::Mat& ri
       clock.lap("mutual information");
     }
     s.sparse.run(s.input.views(), settings, clock);
-    if (s.completesBy(CompletionMethod::kFillHoles)) {
-      s.complete(settings);
-      clock.lap("completion");
-    }
+    if (s.completesBy(CompletionMethod::kFillHoles)) s.complete(settings, clock);
   }
   estimateConfidence(s.sparse.maps(), s.options.aggregation, s.confidence, s.threads);
   clock.lap("confidence");

@@ -95,6 +95,7 @@ void Options::validate() const {
   requireRange("completion.seed_speckle_size_px", completion.seed_speckle_size_px, 0, 1 << 30);
   requireOneOf("completion.segment_scale", completion.segment_scale, {1, 2, 4});
   requireRange("completion.search_radius_px", completion.search_radius_px, 1, 1 << 20);
+  requireOneOf("completion.refine_radius_px", completion.refine_radius_px, {2, 3});
   requireRange("completion.sigma_space_px", completion.sigma_space_px, 0.1, 100);
   requireRange("completion.sigma_range", completion.sigma_range, 0.1, 1000);
   requireRange("completion.pyramid_levels", completion.pyramid_levels, 1, 16);

@@ -167,7 +167,9 @@ TEST(Engine, HolesKeepTheirReasonAndFilledPixelsTheirSource) {
   const RenderedPair pair = scene("boxes", 320, 200, 40);
   const StereoResult sparse =
       computeDisparity(pair.left.image, pair.right.image, makeOptions("balanced", 48, OutputMode::kSparse));
-  const StereoResult dense = computeDisparity(pair.left.image, pair.right.image, makeOptions("balanced", 48));
+  Options unrefined = makeOptions("balanced", 48);
+  unrefined.completion.weighted_median = unrefined.completion.plane_refinement = false;
+  const StereoResult dense = computeDisparity(pair.left.image, pair.right.image, unrefined);
   int occluded = 0, truly_occluded = 0;
   for (int y = 0; y < 200; ++y)
     for (int x = 0; x < 320; ++x) {
@@ -190,6 +192,44 @@ TEST(Engine, HolesKeepTheirReasonAndFilledPixelsTheirSource) {
     }
   EXPECT_GT(occluded, 500);
   EXPECT_GT(truly_occluded, 0.6 * occluded);
+}
+
+TEST(Engine, RefinementChangesDisparitiesAndNothingElse) {
+  const RenderedPair pair = scene("planes", 320, 200, 40);
+  const auto refined = [&](bool weighted_median, bool planes) {
+    Options o = makeOptions("balanced", 48);
+    o.completion.weighted_median = weighted_median;
+    o.completion.plane_refinement = planes;
+    return computeDisparity(pair.left.image, pair.right.image, o);
+  };
+  const auto error = [&](const StereoResult& r) {  // an outlier counts as one pixel
+    double squares = 0;
+    for (int y = 0; y < 200; ++y)
+      for (int x = 0; x < 320; ++x) {
+        const double e = r.disparity.at<float>(y, x) - pair.left.disparity.at<float>(y, x);
+        squares += std::min(e * e, 1.0);
+      }
+    return std::sqrt(squares / static_cast<double>(r.disparity.total()));
+  };
+  const StereoResult before = refined(false, false);
+  for (bool weighted_median : {false, true})
+    for (bool planes : {false, true}) {
+      const StereoResult after = refined(weighted_median, planes);
+      EXPECT_TRUE(sameBytes(after.state, before.state));
+      EXPECT_TRUE(sameBytes(after.confidence, before.confidence));
+      int moved = 0;
+      for (int y = 0; y < 200; ++y)
+        for (int x = 0; x < 320; ++x)
+          moved += std::abs(after.disparity.at<float>(y, x) - before.disparity.at<float>(y, x)) > 1;
+      EXPECT_LT(moved, 0.03 * before.disparity.total());
+      EXPECT_EQ(sameBytes(after.disparity, before.disparity), !weighted_median && !planes);
+      EXPECT_LT(error(after), 1.03 * error(before));
+      if (weighted_median) {
+        EXPECT_LT(error(after), 0.95 * error(before));
+        EXPECT_LT(score(after.disparity, pair.left.disparity).bad1_of_all,
+                  score(before.disparity, pair.left.disparity).bad1_of_all);
+      }
+    }
 }
 
 TEST(Engine, UpsideDownPairGivesTheMapUpsideDown) {
@@ -413,6 +453,8 @@ TEST(Options, RefusesEveryValueOutOfRange) {
                 {"validation.median_size is 7", "0, 3, 5"});
   expectRefused(with([](Options& o) { o.completion.search_radius_px = 0; }),
                 {"completion.search_radius_px is 0"});
+  expectRefused(with([](Options& o) { o.completion.refine_radius_px = 4; }),
+                {"completion.refine_radius_px is 4", "2, 3"});
   expectRefused(with([](Options& o) { o.completion.sigma_space_px = kNan; }),
                 {"completion.sigma_space_px is nan"});
   expectRefused(with([](Options& o) { o.completion.sigma_range = 0; }), {"completion.sigma_range is 0"});

@@ -65,7 +65,8 @@ struct ValidationOptions {
 };
 
 enum class CompletionMethod {
-  kFillHoles,  ///< measured pixels stay; holes filled from their surroundings, coarse maps as the last resort
+  /// Holes filled from their surroundings, coarse maps as the last resort; then the whole map refined.
+  kFillHoles,
   kPaper,      ///< the seed paper: coarse maps only, bilateral on every pixel, equal-weight fusion
 };
 
@@ -81,6 +82,12 @@ struct CompletionOptions {
   /// A hole is filled from measured pixels at most this far away (pixels along a search ray); farther away
   /// the coarse maps decide. At least 1.
   int search_radius_px = 200;
+  /// kFillHoles: move the jumps of the dense map to the edges of the left image, by a colour-weighted median
+  /// near jumps of more than 1 px, and a 5 x 5 median of the whole map. Measured pixels change, too.
+  bool weighted_median = true;
+  /// kFillHoles: replace each disparity by a plane through the neighbours of like disparity and colour.
+  bool plane_refinement = true;
+  int refine_radius_px = 2;  ///< of the window of that plane: 2 or 3
   float sigma_space_px =
       10.0f;                  ///< joint bilateral: spatial standard deviation, at the coarse scale (sigma_s)
   float sigma_range = 30.0f;  ///< joint bilateral: guide-image standard deviation, 8-bit units (sigma_r)
