@@ -62,7 +62,7 @@ class HoleFiller {
       x[i] = p.x;
       y[i] = p.y;
       color[i] = colors_.at(p.y, p.x);
-      quarters[i] = isBackground(state_.at(p.y, p.x)) ? 1 : 2;
+      quarters[i] = isBackground(state_.at(p.y, p.x)) ? 0 : 2;
     }
     float candidates[kRays.size() * kHoleBatch], chosen[kHoleBatch];
     std::uint32_t weights[kRays.size() * kHoleBatch];

@@ -129,7 +129,7 @@ class PlaneFiller {
         static_cast<float>(fit.inliers) < standard.min_inliers * static_cast<float>(points.count))
       return;
     for (const int cell : segment)
-      if (cells_.holes(cell) > 0) fillCell(cell, origin, fit.plane);
+      if (cells_.holes(cell) > 0) fillCell(cell, origin, fit);
   }
 
  private:
@@ -156,12 +156,15 @@ class PlaneFiller {
     }
   }
 
-  void fillCell(int cell, Origin origin, const DisparityPlane& plane) const {
+  void fillCell(int cell, Origin origin, const PlaneFit& fit) const {
     const Cells::Block b = cells_.block(cell);
     for (int y = b.y_begin; y < b.y_end; ++y)
       for (int x = b.x_begin; x < b.x_end; ++x) {
         if (!isHole(disparity_.at(y, x), state_.at(y, x))) continue;
-        const float e = plane.at(static_cast<float>(x - origin.x), static_cast<float>(y - origin.y));
+        // Beyond what supports it a plane soon leaves the surface: from there on it is taken to be level.
+        const float e =
+            std::clamp(fit.plane.at(static_cast<float>(x - origin.x), static_cast<float>(y - origin.y)),
+                       fit.low - kPlaneTolerance_px, fit.high + kPlaneTolerance_px);
         if (!(e >= in_.min_disparity && e <= in_.max_disparity)) continue;
         if (wouldHideFromRight(in_.right_disparity, y, x, e)) continue;
         disparity_.at(y, x) = e;

@@ -67,7 +67,7 @@ struct ValidationOptions {
 enum class CompletionMethod {
   /// Holes filled from their surroundings, coarse maps as the last resort; then the whole map refined.
   kFillHoles,
-  kPaper,      ///< the seed paper: coarse maps only, bilateral on every pixel, equal-weight fusion
+  kPaper,  ///< the seed paper: coarse maps only, bilateral on every pixel, equal-weight fusion
 };
 
 struct CompletionOptions {
