@@ -12,15 +12,15 @@ namespace {
 
 constexpr int kMinRowsPerStrip = 16;
 constexpr int kMinSegmentsPerStrip = 8;
-constexpr int kMinSegment_px = 50;
+constexpr int kMinSegment_px = 100;
 constexpr int kMinSources = 24;
-constexpr float kMinInliers = 0.25f;  // per source
+constexpr float kMinInliers = 0.4f;  // per source
 
 struct Division {
   float granularity;   // k of the full image
   float min_coverage;  // sources per pixel of a segment
 };
-constexpr std::array<Division, 3> kDivisions = {{{150, 0.3f}, {450, 0.3f}, {1350, 0.02f}}};
+constexpr std::array<Division, 3> kDivisions = {{{150, 0.3f}, {450, 0.1f}, {1350, 0.02f}}};
 
 struct Pixel {
   int x, y;
