@@ -8,6 +8,7 @@
 
 #include "core/parallel.h"
 #include "pomona/pixel_state.h"
+#include "pyramid/holes.h"
 
 namespace pomona {
 namespace {
@@ -15,7 +16,6 @@ namespace {
 constexpr std::size_t kRowRays = 2;  // kRays[0] and [1]
 constexpr double kColorScale = 12;
 constexpr double kDistanceScale_px = 30;
-constexpr float kVisibilityTolerance_px = 1.5f;
 constexpr int kMinBatchesPerStrip = 16;
 constexpr int kMinLinesPerStrip = 16;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();

@@ -12,16 +12,19 @@ namespace {
 
 constexpr int kMinRowsPerStrip = 16;
 constexpr int kMinSegmentsPerStrip = 8;
-constexpr float kGranularity = 100;  // k of the full image
-constexpr int kMinSegment_px = 50;
-constexpr int kMinSources = 12;
+constexpr int kMinSegment_px = 100;
+constexpr int kMinSources = 24;
+constexpr float kMinInliers = 0.4f;  // per source
 
-struct Standard {
-  float granularity;   // as a multiple of kGranularity
-  float min_coverage;  // sources per pixel of the segment
-  float min_inliers;   // per source
+struct Division {
+  float granularity;   // k of the full image
+  float min_coverage;  // sources per pixel of a segment
 };
-constexpr std::array<Standard, 3> kStandards = {{{1, 0.3f, 0.7f}, {3, 0.3f, 0.7f}, {9, 0.1f, 0.5f}}};
+constexpr std::array<Division, 3> kDivisions = {{{150, 0.3f}, {450, 0.1f}, {1350, 0.02f}}};
+
+struct Pixel {
+  int x, y;
+};
 
 // The image's pixels in blocks, one for each pixel of the reduced image.
 class Cells {
@@ -42,20 +45,24 @@ class Cells {
     });
   }
 
-  struct Block {
-    int x_begin, x_end, y_begin, y_end;
-    int pixels() const { return (x_end - x_begin) * (y_end - y_begin); }
-  };
-  Block block(int cell) const {
-    const std::size_t i = static_cast<std::size_t>(cell % width_),
-                      j = static_cast<std::size_t>(cell / width_);
-    const Buffer<int>&x = scratch_.column_begin, &y = scratch_.row_begin;
-    return {x[i], x[i + 1], y[j], y[j + 1]};
+  Pixel firstPixel(int cell) const { return {columns()[cell % width_], rows()[cell / width_]}; }
+  int pixels(int cell) const {
+    const int *x = columns() + cell % width_, *y = rows() + cell / width_;
+    return (x[1] - x[0]) * (y[1] - y[0]);
+  }
+  template <typename F>
+  void forEachPixel(int cell, F visit) const {
+    const int *x_range = columns() + cell % width_, *y_range = rows() + cell / width_;
+    for (int y = y_range[0]; y < y_range[1]; ++y)
+      for (int x = x_range[0]; x < x_range[1]; ++x) visit(Pixel{x, y});
   }
   int sources(int cell) const { return scratch_.sources.row(cell / width_)[cell % width_]; }
   std::uint8_t& holes(int cell) const { return scratch_.holes.row(cell / width_)[cell % width_]; }
 
  private:
+  const int* columns() const { return scratch_.column_begin.data(); }
+  const int* rows() const { return scratch_.row_begin.data(); }
+
   // Pixel p belongs to cell p * cells / pixels.
   static void cut(int pixels, int cells, Buffer<int>& begin) {
     begin.resize(static_cast<std::size_t>(cells) + 1);
@@ -66,8 +73,7 @@ class Cells {
   void countRow(int row, ImageView<const float> disparity, ImageView<const std::uint8_t> state) {
     std::uint16_t* sums = scratch_.column_sums.row(row);  // sources, and holes times 256
     std::fill_n(sums, disparity.width, std::uint16_t{0});
-    for (int y = scratch_.row_begin[static_cast<std::size_t>(row)];
-         y < scratch_.row_begin[static_cast<std::size_t>(row) + 1]; ++y) {
+    for (int y = rows()[row]; y < rows()[row + 1]; ++y) {
       const float* d = disparity.row(y);
       const std::uint8_t* s = state.row(y);
       for (int x = 0; x < disparity.width; ++x)
@@ -75,9 +81,7 @@ class Cells {
     }
     for (int i = 0; i < width_; ++i) {
       int sum = 0;
-      for (int x = scratch_.column_begin[static_cast<std::size_t>(i)];
-           x < scratch_.column_begin[static_cast<std::size_t>(i) + 1]; ++x)
-        sum += sums[x];
+      for (int x = columns()[i]; x < columns()[i + 1]; ++x) sum += sums[x];
       scratch_.sources.row(row)[i] = static_cast<std::uint8_t>(sum % 256);
       scratch_.holes.row(row)[i] = static_cast<std::uint8_t>(sum / 256);
     }
@@ -110,35 +114,29 @@ class PlaneFiller {
       : in_(in), cells_(cells), disparity_(disparity), state_(state), kernels_(kernels) {}
 
   // Reads and writes pixels of the segment only: segments may be filled in any order.
-  void fill(std::span<const int> segment, std::uint32_t seed, const Standard& standard) const {
+  void fill(std::span<const int> segment, float min_coverage, std::uint32_t seed) const {
     int pixels = 0, sources = 0, holes = 0;
     for (const int cell : segment) {
-      pixels += cells_.block(cell).pixels();
+      pixels += cells_.pixels(cell);
       sources += cells_.sources(cell);
       holes += cells_.holes(cell);
     }
     if (holes == 0 || sources < kMinSources ||
-        static_cast<float>(sources) < standard.min_coverage * static_cast<float>(pixels))
+        static_cast<float>(sources) < min_coverage * static_cast<float>(pixels))
       return;
-    const Cells::Block first = cells_.block(segment[0]);
-    const Origin origin{first.x_begin, first.y_begin};
-    PlanePoints points;
-    gather(segment, sources, origin, points);
+    const Pixel origin = cells_.firstPixel(segment[0]);
+    const PlanePoints points = sample(segment, sources, origin);
     const PlaneFit fit = fitPlane(points, seed, kernels_);
-    if (fit.inliers == 0 ||
-        static_cast<float>(fit.inliers) < standard.min_inliers * static_cast<float>(points.count))
+    if (fit.inliers == 0 || static_cast<float>(fit.inliers) < kMinInliers * static_cast<float>(points.count))
       return;
     for (const int cell : segment)
       if (cells_.holes(cell) > 0) fillCell(cell, origin, fit);
   }
 
  private:
-  struct Origin {
-    int x, y;
-  };
-
   // Sources at equal distances along the list of cells, as many as there is room for.
-  void gather(std::span<const int> segment, int sources, Origin origin, PlanePoints& points) const {
+  PlanePoints sample(std::span<const int> segment, int sources, Pixel origin) const {
+    PlanePoints points;
     const int step = (sources + PlanePoints::kCapacity - 1) / PlanePoints::kCapacity;
     int until_next = 0;
     for (const int cell : segment) {
@@ -146,31 +144,29 @@ class PlaneFiller {
         until_next -= cells_.sources(cell);
         continue;
       }
-      const Cells::Block b = cells_.block(cell);
-      for (int y = b.y_begin; y < b.y_end; ++y)
-        for (int x = b.x_begin; x < b.x_end; ++x) {
-          if (!isSource(disparity_.at(y, x), state_.at(y, x)) || until_next-- > 0) continue;
-          points.add(static_cast<float>(x - origin.x), static_cast<float>(y - origin.y), disparity_.at(y, x));
-          until_next = step - 1;
-        }
+      cells_.forEachPixel(cell, [&](Pixel p) {
+        if (!isSource(disparity_.at(p.y, p.x), state_.at(p.y, p.x)) || until_next-- > 0) return;
+        points.add(static_cast<float>(p.x - origin.x), static_cast<float>(p.y - origin.y),
+                   disparity_.at(p.y, p.x));
+        until_next = step - 1;
+      });
     }
+    return points;
   }
 
-  void fillCell(int cell, Origin origin, const PlaneFit& fit) const {
-    const Cells::Block b = cells_.block(cell);
-    for (int y = b.y_begin; y < b.y_end; ++y)
-      for (int x = b.x_begin; x < b.x_end; ++x) {
-        if (!isHole(disparity_.at(y, x), state_.at(y, x))) continue;
-        // Beyond what supports it a plane soon leaves the surface: from there on it is taken to be level.
-        const float e =
-            std::clamp(fit.plane.at(static_cast<float>(x - origin.x), static_cast<float>(y - origin.y)),
-                       fit.low - kPlaneTolerance_px, fit.high + kPlaneTolerance_px);
-        if (!(e >= in_.min_disparity && e <= in_.max_disparity)) continue;
-        if (wouldHideFromRight(in_.right_disparity, y, x, e)) continue;
-        disparity_.at(y, x) = e;
-        state_.at(y, x) = static_cast<std::uint8_t>(PixelState::kFilledPlane);
-        --cells_.holes(cell);
-      }
+  void fillCell(int cell, Pixel origin, const PlaneFit& fit) const {
+    cells_.forEachPixel(cell, [&](Pixel p) {
+      if (!isHole(disparity_.at(p.y, p.x), state_.at(p.y, p.x))) return;
+      // Beyond what supports it a plane soon leaves the surface: from there on it is taken to be level.
+      const float e =
+          std::clamp(fit.plane.at(static_cast<float>(p.x - origin.x), static_cast<float>(p.y - origin.y)),
+                     fit.low - kPlaneTolerance_px, fit.high + kPlaneTolerance_px);
+      if (!(e >= in_.min_disparity && e <= in_.max_disparity)) return;
+      if (wouldHideFromRight(in_.right_disparity, p.y, p.x, e)) return;
+      disparity_.at(p.y, p.x) = e;
+      state_.at(p.y, p.x) = static_cast<std::uint8_t>(PixelState::kFilledPlane);
+      --cells_.holes(cell);
+    });
   }
 
   const PlaneFillInput& in_;
@@ -196,21 +192,21 @@ void fillFromPlanes(const PlaneFillInput& in, ImageView<float> disparity, ImageV
   cells.count(disparity, state, threads);
   scratch.edges.build(guide, kernels, threads);
   const float scale = static_cast<float>(in.scale);
-  parallelFor(threads, static_cast<int>(kStandards.size()), [&](int i) {
+  parallelFor(threads, static_cast<int>(kDivisions.size()), [&](int i) {
     PlaneFillScratch::Segments& s = scratch.segments[static_cast<std::size_t>(i)];
-    const float k = kStandards[static_cast<std::size_t>(i)].granularity * kGranularity / scale;
+    const float k = kDivisions[static_cast<std::size_t>(i)].granularity / scale;
     s.count = segment(scratch.edges, {k, kMinSegment_px / (in.scale * in.scale)}, s.labels, s.segmentation);
     listCells(s);
   });
 
   const PlaneFiller filler(in, cells, disparity, state, kernels);
-  for (std::size_t i = 0; i < kStandards.size(); ++i) {
+  for (std::size_t i = 0; i < kDivisions.size(); ++i) {
     const PlaneFillScratch::Segments& s = scratch.segments[i];
     parallelStrips(threads, s.count, kMinSegmentsPerStrip, [&](int begin, int end) {
       for (int j = begin; j < end; ++j) {
         const std::size_t n = static_cast<std::size_t>(j);
         filler.fill({s.cells.data() + s.begin[n], s.cells.data() + s.begin[n + 1]},
-                    static_cast<std::uint32_t>(j), kStandards[i]);
+                    kDivisions[i].min_coverage, static_cast<std::uint32_t>(j));
       }
     });
   }

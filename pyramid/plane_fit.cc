@@ -8,7 +8,7 @@
 namespace pomona {
 namespace {
 
-constexpr int kMaxSamples = 100;
+constexpr int kMaxSamples = 400;
 constexpr double kMissProbability = 0.01;  // that no sample so far consisted of inliers only
 constexpr float kMinDeterminant_px2 = 4;   // twice the area of a sample's triangle
 constexpr int kRefinements = 2;

@@ -131,7 +131,9 @@ struct HoleFill {
     const std::vector<std::uint8_t> s = state;
     const auto is = [&](int i, PixelState p) { return s[i] == static_cast<std::uint8_t>(p); };
     const auto masked = [&](int i) { return is(i, PixelState::kMasked); };
-    const auto source = [&](int i) { return is(i, PixelState::kMeasured) && !std::isnan(d[i]); };
+    const auto source = [&](int i) {
+      return (is(i, PixelState::kMeasured) && !std::isnan(d[i])) || is(i, PixelState::kFilledPlane);
+    };
     const auto hole = [&](int i) {
       return (s[i] >= 16 && !masked(i)) || (is(i, PixelState::kMeasured) && std::isnan(d[i]));
     };
