@@ -107,6 +107,8 @@ Options Options::preset(std::string_view name) {
   if (name == "fast") {
     o.cost = {MatchingCost::kCensus5x5, 0};
     o.aggregation = {8, 5, 40, 10, PenaltyAdaptation::kSoftIntensity};
+    o.completion.seed_left_right_px = 1.0f;
+    o.completion.seed_speckle_size_px = 50;
     return o;
   }
   if (name == "quality") {
