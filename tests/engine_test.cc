@@ -104,11 +104,11 @@ TEST(Engine, WholeFrameGoldenHashes) {
   const auto hash = [&](const char* preset, OutputMode mode) {
     return hashOf(computeDisparity(pair.left.image, pair.right.image, makeOptions(preset, 45, mode)));
   };
-  EXPECT_EQ(hash("fast", OutputMode::kSparse), 0u);
-  EXPECT_EQ(hash("fast", OutputMode::kDense), 0u);
-  EXPECT_EQ(hash("balanced", OutputMode::kSparse), 0u);
-  EXPECT_EQ(hash("balanced", OutputMode::kDense), 0u);
-  EXPECT_EQ(hash("quality", OutputMode::kDense), 0u);
+  EXPECT_EQ(hash("fast", OutputMode::kSparse), 7361138469306142624u);
+  EXPECT_EQ(hash("fast", OutputMode::kDense), 11799470575300628480u);
+  EXPECT_EQ(hash("balanced", OutputMode::kSparse), 1608317443547902257u);
+  EXPECT_EQ(hash("balanced", OutputMode::kDense), 3791427732859741793u);
+  EXPECT_EQ(hash("quality", OutputMode::kDense), 12965853428021574724u);
 }
 
 TEST(Engine, AnEngineGivesTheSameFrameAfterFrameOfAnySize) {
@@ -468,6 +468,19 @@ TEST(Options, RefusesEveryValueOutOfRange) {
   expectRefused(with([](Options& o) { o.completion.sigma_range = 0; }), {"completion.sigma_range is 0"});
   expectRefused(with([](Options& o) { o.completion.pyramid_levels = 17; }),
                 {"completion.pyramid_levels is 17"});
+  const auto second_pass = [&](const std::function<void(SecondPassOptions&)>& change) {
+    return with([change](Options& o) {
+      o.second_pass.enabled = true;
+      change(o.second_pass);
+    });
+  };
+  EXPECT_NO_THROW(second_pass([](SecondPassOptions&) {})());
+  expectRefused(second_pass([](SecondPassOptions& s) { s.weight = 0; }), {"second_pass.weight is 0"});
+  expectRefused(second_pass([](SecondPassOptions& s) { s.reach_px = 17; }), {"second_pass.reach_px is 17"});
+  expectRefused(second_pass([](SecondPassOptions& s) { s.cost.cost = MatchingCost::kMutualInformation; }),
+                {"second_pass.cost.cost", "mutual information"});
+  expectRefused(second_pass([](SecondPassOptions& s) { s.weight = s.reach_px = 14; }),
+                {"second_pass.aggregation.p2 is 24"});
   expectRefused([] { Options::preset("turbo"); }, {"preset is 'turbo'", "balanced"});
   for (const char* preset : {"fast", "balanced", "quality", "paper"})
     EXPECT_NO_THROW(Options::preset(preset).validate()) << preset;
