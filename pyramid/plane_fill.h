@@ -43,11 +43,12 @@ struct PlaneFillScratch {
 /// their bytes, and holes that no plane suits stay holes.
 ///
 /// The guide, reduced by area averaging, is divided into segments three times: with k = 150 / scale, three
-/// and nine times that; segments have at least 50 px of the full image. From the finest to the coarsest,
+/// and nine times that; segments have at least 100 px of the full image. From the finest to the coarsest,
 /// every segment that still has holes gets a robust plane (see plane_fit.h) through its sources, if these are
-/// at least 24 and cover 30 % of it (2 % at the coarsest, which is the last to try) and if a quarter of them
-/// lie near the plane. Its holes take the plane's disparities where these are within the range and hide
-/// nothing that the right view sees. The result does not depend on the number of threads.
+/// at least 24 and cover 30 % of it (10 % at the medium, 2 % at the coarsest division, which is the last to
+/// try), and if 40 % of them lie near the plane. Its holes take the plane's disparities, but none more than
+/// 1 px beyond those of the sources near the plane, where they are within the range and hide nothing that
+/// the right view sees. The result does not depend on the number of threads.
 void fillFromPlanes(const PlaneFillInput& in, ImageView<float> disparity, ImageView<std::uint8_t> state,
                     PlaneFillScratch& scratch, const PyramidKernels& kernels, int threads);
 
