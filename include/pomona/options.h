@@ -72,13 +72,15 @@ enum class CompletionMethod {
 
 struct CompletionOptions {
   CompletionMethod method = CompletionMethod::kFillHoles;
-  /// kFillHoles spreads measured disparities over holes, so it is stricter about which pixels count as
-  /// measured than a sparse map is: these two take the place of those in ValidationOptions.
+  /// kFillHoles spreads measured disparities over holes, so it may be stricter about which pixels count as
+  /// measured than a sparse map is: these two take the place of left_right_px and speckle_size_px.
   float seed_left_right_px = 0.7f;
   int seed_speckle_size_px = 100;
   /// kFillHoles: holes first take the plane that the measured pixels of their colour segment lie on.
   bool segment_planes = true;
-  int segment_scale = 4;  ///< segments are found in the image reduced so many times: 1, 2 or 4
+  /// Segments are found in the image reduced so many times: 1, 2 or 4. The default is both the best and the
+  /// fastest.
+  int segment_scale = 4;
   /// A hole is filled from pixels, measured or on segment planes, at most this far away (along a search ray);
   /// farther away the coarse maps decide. At least 1.
   int search_radius_px = 200;
