@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "core/cpu.h"
 #include "core/parallel.h"
@@ -38,12 +39,13 @@ struct StereoEngine::State {
   PlaneFillScratch plane_fill;
   HoleFillScratch hole_fill;
   Refinement refinement;
+  Image<float> first_map;
   Image<float> confidence;
   StereoResult result;
 
   explicit State(const Options& o) : options(o), isa(chooseIsa(o.isa)) {
     threads = o.threads > 0 ? o.threads : availableThreads();
-    result.timings.reserve(16);
+    result.timings.reserve(32);
   }
   SparseStage::Settings settings(const cv::Mat& mask) const;
   bool completesBy(CompletionMethod method) const {
@@ -51,6 +53,7 @@ struct StereoEngine::State {
   }
   void fillWithCoarse(const SparseStage::Settings& settings);
   void complete(const SparseStage::Settings& settings, StageClock& clock);
+  void matchAgain(SparseStage::Settings settings, StageClock& clock);
   void publish();
 };
 
@@ -112,6 +115,19 @@ void StereoEngine::State::complete(const SparseStage::Settings& settings, StageC
   refinement.run(maps.disparity, input.views().guide, options.completion, filterKernels(isa), threads, clock);
 }
 
+/// The second pass: the completed map, which sparse.maps() holds, becomes the prior of another match.
+void StereoEngine::State::matchAgain(SparseStage::Settings settings, StageClock& clock) {
+  std::swap(first_map, sparse.maps().disparity);
+  MatchInput views = input.views();
+  views.prior = first_map.view();
+  settings.match.cost = options.second_pass.cost;
+  settings.match.aggregation = options.second_pass.aggregation;
+  settings.match.prior_weight = options.second_pass.weight;
+  settings.match.prior_reach_px = options.second_pass.reach_px;
+  sparse.run(views, settings, clock);
+  complete(settings, clock);
+}
+
 void StereoEngine::State::publish() {
   MatchMaps& maps = sparse.maps();
   result.disparity = shared(maps.disparity, CV_32F);
@@ -149,7 +165,10 @@ const StereoResult& StereoEngine::compute(const cv::Mat& left, const cv::Mat& ri
       clock.lap("mutual information");
     }
     s.sparse.run(s.input.views(), settings, clock);
-    if (s.completesBy(CompletionMethod::kFillHoles)) s.complete(settings, clock);
+    if (s.completesBy(CompletionMethod::kFillHoles)) {
+      s.complete(settings, clock);
+      if (s.options.second_pass.enabled) s.matchAgain(settings, clock);
+    }
   }
   estimateConfidence(s.sparse.maps(), s.options.aggregation, s.confidence, s.threads);
   clock.lap("confidence");

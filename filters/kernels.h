@@ -58,8 +58,8 @@ struct FilterKernels {
   void (*median5x5)(const float* const* rows, int width, float* out);
   /// kBilateralBlock pixels of the joint bilateral filter, NaN where unknown, see filters/joint_bilateral.h.
   void (*jointBilateral)(const BilateralWindow& window, float* out);
-  /// near[x] = 1 if a known pixel of the 3 x 3 around x differs by more than `threshold_px` from pixel x,
-  /// else 0.
+  /// near[x] = 1 if pixel x is known and a known pixel of the 3 x 3 around it differs by more than
+  /// `threshold_px`, else 0.
   void (*nearJumps)(const GuidedRow& row, int width, float threshold_px, std::uint8_t* near);
   /// out[x] = the weighted median around x, for the `count` known pixels whose columns x are given.
   void (*weightedMedian)(const GuidedRow& row, const MedianWindow& window, const std::int32_t* columns,

@@ -30,12 +30,11 @@ MedianWindow makeWindow(std::ptrdiff_t stride) {
 }
 
 /// Columns in [begin, end) that are near a jump; returns how many.
-int chosenColumns(const std::uint8_t* near_jump, const float* disparity, int begin, int end,
-                  std::int32_t* columns) {
+int chosenColumns(const std::uint8_t* near_jump, int begin, int end, std::int32_t* columns) {
   int count = 0;
   for (int x = begin; x < end; ++x) {
     columns[count] = x;
-    count += near_jump[x] & !std::isnan(disparity[x]);
+    count += near_jump[x];
   }
   return count;
 }
@@ -56,7 +55,7 @@ void weightedMedian(ImageView<const float> in, GuideView guide, ImageView<float>
       kernels.nearJumps(row, width, kJump_px, near_jump);
       std::int32_t columns[kSegment];
       for (int x = 0; x < width; x += kSegment) {
-        const int count = chosenColumns(near_jump, row.disparity, x, std::min(width, x + kSegment), columns);
+        const int count = chosenColumns(near_jump, x, std::min(width, x + kSegment), columns);
         kernels.weightedMedian(row, window, columns, count, out.row(y));
       }
     }

@@ -56,13 +56,12 @@ class HoleFiller {
   bool fillBatch(int batch) {
     const int first = batch * kHoleBatch, n = std::min(kHoleBatch, rays_.count() - first);
     std::int32_t x[kHoleBatch], y[kHoleBatch];
-    std::uint32_t color[kHoleBatch], quarters[kHoleBatch];
+    std::uint32_t color[kHoleBatch];
     for (int i = 0; i < n; ++i) {
       const HoleRays::Pixel p = rays_.holes()[first + i];
       x[i] = p.x;
       y[i] = p.y;
       color[i] = colors_.at(p.y, p.x);
-      quarters[i] = isBackground(state_.at(p.y, p.x)) ? 1 : 2;
     }
     float candidates[kRays.size() * kHoleBatch], chosen[kHoleBatch];
     std::uint32_t weights[kRays.size() * kHoleBatch];
@@ -71,7 +70,7 @@ class HoleFiller {
       kernels_.gatherCandidates(sources_[k], x, y, color, rays_.steps(k) + first, n, candidates + plane,
                                 weights + plane);
     }
-    kernels_.weightedQuantile(candidates, weights, quarters, n, chosen);
+    kernels_.candidateMedian(candidates, weights, n, chosen);
     bool complete = true;
     for (int i = 0; i < n; ++i)
       complete &= fillHole(first + i, std::isinf(chosen[i]) ? leastImpossible(first + i) : chosen[i]);

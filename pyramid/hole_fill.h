@@ -39,13 +39,12 @@ struct HoleFillScratch {
 /// dropped, if the right view sees something at x - e (nearest pixel, inside the image) that is farther than
 /// e by more than 1.5 px of disparity: a surface at e would hide it from there.
 ///
-/// - Occluded and out-of-range pixels: the weighted lower quartile of the candidates, because what only one
-///   view sees belongs to the background. State kFilledBackground.
-/// - Others: the weighted (lower) median. State kFilledInterpolated.
+/// - The weighted (lower) median of the candidates. State kFilledBackground for occluded and out-of-range
+///   pixels, whose possible candidates are those of the background, kFilledInterpolated for others.
 /// - No possible candidate: the smaller of the sources to the left and right, or without these of all.
 /// - No source within reach: the coarse map's value. State kFilledCoarse.
 /// - Nor that: the nearest value in the row, or else in the column, at any distance (of two as near, the
-///   smaller); else `fallback_disparity`. State as by the first two rules.
+///   smaller); else `fallback_disparity`. State as by the first rule.
 ///
 /// Weights are integers (the product of both exponentials in 1 / 65535, over 16, at least 1), so that their
 /// sums are exact and the result depends on nothing but the input. The rays of all pixels are followed

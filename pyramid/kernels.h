@@ -79,10 +79,8 @@ struct PyramidKernels {
                            std::uint32_t* weight);
 
   /// For each of n <= kHoleBatch holes the smallest of its 16 disparities (plane k at k n) that has, together
-  /// with the smaller ones, at least quarters[i] / 4 (1 or 2) of all weight, whose sum must fit 32 bits;
-  /// +infinity without any.
-  void (*weightedQuantile)(const float* disparity, const std::uint32_t* weight, const std::uint32_t* quarters,
-                           int n, float* out);
+  /// with the smaller ones, at least half of all weight, whose sum must fit 32 bits; +infinity without any.
+  void (*candidateMedian)(const float* disparity, const std::uint32_t* weight, int n, float* out);
 };
 
 /// The table of an instruction set; that of the scalar build if there is none for it.

@@ -49,7 +49,7 @@ class PlaneFiller {
         static_cast<float>(fit.inliers) < kMinInlierRatio * static_cast<float>(points.count))
       return;
     for (const Cell c : segment)
-      if (cells_.holes(c) > 0) fillCell(c, origin, fit.plane);
+      if (cells_.holes(c) > 0) fillCell(c, origin, fit);
   }
 
  private:
@@ -70,11 +70,14 @@ class PlaneFiller {
     return points;
   }
 
-  void fillCell(Cell cell, Pixel origin, const DisparityPlane& plane) {
+  void fillCell(Cell cell, Pixel origin, const PlaneFit& fit) {
     int open = 0;
     cells_.forEachPixel(cell, [&](Pixel p) {
       if (!isHole(disparity_.at(p.y, p.x), state_.at(p.y, p.x))) return;
-      const float e = plane.at(static_cast<float>(p.x - origin.x), static_cast<float>(p.y - origin.y));
+      // Beyond what supports it a plane soon leaves the surface: from there on it is taken to be level.
+      const float e =
+          std::clamp(fit.plane.at(static_cast<float>(p.x - origin.x), static_cast<float>(p.y - origin.y)),
+                     fit.low - kPlaneTolerance_px, fit.high + kPlaneTolerance_px);
       const bool is_possible = e >= in_.min_disparity && e <= in_.max_disparity &&
                                !wouldHideFromRight(in_.right_disparity, p.y, p.x, e);
       open += !is_possible;

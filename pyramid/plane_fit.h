@@ -27,7 +27,8 @@ struct PlanePoints {
 
 struct PlaneFit {
   DisparityPlane plane;
-  int inliers;  ///< points less than kPlaneTolerance_px away from the plane; 0 if there is no plane
+  int inliers;      ///< points less than kPlaneTolerance_px away from the plane; 0 if there is no plane
+  float low, high;  ///< their smallest and largest disparity
 };
 
 constexpr float kPlaneTolerance_px = 1.0f;

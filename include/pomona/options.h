@@ -95,6 +95,16 @@ struct CompletionOptions {
   int pyramid_levels = 6;     ///< Laplacian pyramid levels of the fusion, 1..16
 };
 
+/// A second match of the whole frame, drawn towards the completed map of the first.
+struct SecondPassOptions {
+  bool enabled = false;  ///< dense maps completed by kFillHoles only
+  /// The matching cost grows by weight * min(|d - d_first|, reach_px).
+  int weight = 1;    ///< 1..16
+  int reach_px = 4;  ///< 1..16; the largest cost + weight * reach_px + p1 + p2 must not exceed 255
+  CostOptions cost = {MatchingCost::kBlended, 0};
+  AggregationOptions aggregation = {8, 3, 24, 6, PenaltyAdaptation::kSoftIntensity};
+};
+
 enum class OutputMode {
   kSparse,  ///< measured pixels only
   kDense,   ///< every pixel that the mask does not exclude
@@ -110,6 +120,7 @@ struct Options {
   WinnerOptions winner;
   ValidationOptions validation;
   CompletionOptions completion;
+  SecondPassOptions second_pass;
 
   int threads = 0;  ///< worker threads; 0: one per available processor; at most 1024
   std::string

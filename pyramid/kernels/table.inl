@@ -29,7 +29,7 @@ constexpr PyramidKernels kTable = {
     .countNearPlane = countNearPlane,
     .packColors = packColors,
     .gatherCandidates = gatherCandidates,
-    .weightedQuantile = weightedQuantile,
+    .candidateMedian = candidateMedian,
 };
 
 }  // namespace
