@@ -105,10 +105,10 @@ TEST(Engine, WholeFrameGoldenHashes) {
     return hashOf(computeDisparity(pair.left.image, pair.right.image, makeOptions(preset, 45, mode)));
   };
   EXPECT_EQ(hash("fast", OutputMode::kSparse), 7361138469306142624u);
-  EXPECT_EQ(hash("fast", OutputMode::kDense), 11799470575300628480u);
+  EXPECT_EQ(hash("fast", OutputMode::kDense), 688948504643185778u);
   EXPECT_EQ(hash("balanced", OutputMode::kSparse), 1608317443547902257u);
-  EXPECT_EQ(hash("balanced", OutputMode::kDense), 3791427732859741793u);
-  EXPECT_EQ(hash("quality", OutputMode::kDense), 12965853428021574724u);
+  EXPECT_EQ(hash("balanced", OutputMode::kDense), 6245477057888819099u);
+  EXPECT_EQ(hash("quality", OutputMode::kDense), 3452293529535639645u);
 }
 
 TEST(Engine, AnEngineGivesTheSameFrameAfterFrameOfAnySize) {
@@ -459,6 +459,12 @@ TEST(Options, RefusesEveryValueOutOfRange) {
                 {"validation.speckle_step_px is nan"});
   expectRefused(with([](Options& o) { o.validation.median_size = 7; }),
                 {"validation.median_size is 7", "0, 3, 5"});
+  expectRefused(with([](Options& o) { o.completion.seed_left_right_px = kNan; }),
+                {"completion.seed_left_right_px is nan"});
+  expectRefused(with([](Options& o) { o.completion.seed_speckle_size_px = -1; }),
+                {"completion.seed_speckle_size_px is -1"});
+  expectRefused(with([](Options& o) { o.completion.segment_scale = 3; }),
+                {"completion.segment_scale is 3", "1, 2, 4"});
   expectRefused(with([](Options& o) { o.completion.search_radius_px = 0; }),
                 {"completion.search_radius_px is 0"});
   expectRefused(with([](Options& o) { o.completion.refine_radius_px = 4; }),
