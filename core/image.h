@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
-#include <new>
 #include <type_traits>
 
 namespace pomona {
@@ -38,6 +37,10 @@ struct GuideView {
   const std::uint8_t* row(int y) const { return data + y * stride; }
 };
 
+/// Memory on a 64-byte boundary, to be given to std::free. Large blocks ask for huge pages. Throws
+/// std::bad_alloc.
+void* allocateAligned(std::size_t bytes);
+
 /// Raw memory on a 64-byte boundary. Growing discards the contents; shrinking keeps the memory for the next
 /// frame.
 template <typename T>
@@ -52,9 +55,7 @@ class Buffer {
     if (count <= capacity_) return;
     memory_.reset();
     capacity_ = 0;
-    const std::size_t bytes = (count * sizeof(T) + kAlignment - 1) / kAlignment * kAlignment;
-    memory_.reset(static_cast<T*>(std::aligned_alloc(kAlignment, bytes)));
-    if (!memory_) throw std::bad_alloc();
+    memory_.reset(static_cast<T*>(allocateAligned(count * sizeof(T))));
     capacity_ = count;
   }
   T* data() { return memory_.get(); }

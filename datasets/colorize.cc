@@ -80,6 +80,8 @@ cv::Vec3b stateColor(PixelState state) {
       return {120, 210, 140};
     case PixelState::kFilledCoarse:
       return {190, 170, 40};
+    case PixelState::kFilledPlane:
+      return {200, 225, 170};
     case PixelState::kOccluded:
       return {200, 80, 30};
     case PixelState::kMismatched:

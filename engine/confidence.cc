@@ -19,6 +19,9 @@ void estimateConfidence(const MatchMaps& maps, const AggregationOptions& aggrega
           case PixelState::kMeasured:
             c = (1 + margin[x]) / (1 + margin[x] + half);
             break;
+          case PixelState::kFilledPlane:
+            c = 0.35f;
+            break;
           case PixelState::kFilledInterpolated:
             c = 0.2f;
             break;

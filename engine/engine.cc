@@ -12,6 +12,7 @@
 #include "engine/input.h"
 #include "engine/sparse_stage.h"
 #include "pyramid/hole_fill.h"
+#include "pyramid/plane_fill.h"
 
 namespace pomona {
 namespace {
@@ -33,6 +34,7 @@ struct StereoEngine::State {
   HierarchicalMi mutual_information;
   SparseStage sparse;
   CoarseStage coarse;
+  PlaneFillScratch plane_fill;
   HoleFillScratch hole_fill;
   Image<float> confidence;
   StereoResult result;
@@ -42,8 +44,8 @@ struct StereoEngine::State {
     result.timings.reserve(16);
   }
   SparseStage::Settings settings(const cv::Mat& mask) const;
-  bool isPaper() const {
-    return options.mode == OutputMode::kDense && options.completion.method == CompletionMethod::kPaper;
+  bool completesBy(CompletionMethod method) const {
+    return options.mode == OutputMode::kDense && options.completion.method == method;
   }
   void fillWithCoarse(const SparseStage::Settings& settings);
   void complete(const SparseStage::Settings& settings);
@@ -55,6 +57,10 @@ SparseStage::Settings StereoEngine::State::settings(const cv::Mat& mask) const {
   s.match = {options.min_disparity, options.num_disparities, options.cost, options.aggregation,
              options.winner};
   s.validation = options.validation;
+  if (completesBy(CompletionMethod::kFillHoles)) {
+    s.validation.left_right_px = options.completion.seed_left_right_px;
+    s.validation.speckle_size_px = options.completion.seed_speckle_size_px;
+  }
   if (!mask.empty())
     s.mask = {mask.ptr<std::uint8_t>(), mask.cols, mask.rows, static_cast<std::ptrdiff_t>(mask.step1())};
   s.isa = isa;
@@ -83,12 +89,21 @@ void StereoEngine::State::fillWithCoarse(const SparseStage::Settings& settings) 
 
 void StereoEngine::State::complete(const SparseStage::Settings& settings) {
   MatchMaps& maps = sparse.maps();
-  const auto coarse_map = [&] { return coarse.run(input.views(), settings, options.completion); };
+  const CompletionOptions& completion = options.completion;
+  const float min_disparity = static_cast<float>(options.min_disparity);
+  if (completion.segment_planes)
+    fillFromPlanes({.guide = input.views().guide,
+                    .right_disparity = maps.right_disparity.view(),
+                    .scale = completion.segment_scale,
+                    .min_disparity = min_disparity,
+                    .max_disparity = static_cast<float>(options.min_disparity + options.num_disparities - 1)},
+                   maps.disparity.view(), maps.state.view(), plane_fill, pyramidKernels(isa), threads);
+  const auto coarse_map = [&] { return coarse.run(input.views(), settings, completion); };
   fillHoles({.guide = input.views().guide,
              .right_disparity = maps.right_disparity.view(),
              .coarse = coarse_map,
-             .search_radius_px = options.completion.search_radius_px,
-             .fallback_disparity = static_cast<float>(options.min_disparity)},
+             .search_radius_px = completion.search_radius_px,
+             .fallback_disparity = min_disparity},
             maps.disparity.view(), maps.state.view(), hole_fill, pyramidKernels(isa), threads);
 }
 
@@ -120,7 +135,7 @@ const StereoResult& StereoEngine::compute(const cv::Mat& left, const cv::Mat& ri
   SparseStage::Settings settings = s.settings(mask);
   clock.lap("input");
 
-  if (s.isPaper()) {
+  if (s.completesBy(CompletionMethod::kPaper)) {
     s.fillWithCoarse(settings);
     clock.lap("coarse maps");
   } else {
@@ -129,7 +144,7 @@ const StereoResult& StereoEngine::compute(const cv::Mat& left, const cv::Mat& ri
       clock.lap("mutual information");
     }
     s.sparse.run(s.input.views(), settings, clock);
-    if (s.options.mode == OutputMode::kDense) {
+    if (s.completesBy(CompletionMethod::kFillHoles)) {
       s.complete(settings);
       clock.lap("completion");
     }

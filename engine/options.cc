@@ -82,7 +82,7 @@ void Options::validate() const {
   if (aggregation.adaptation == PenaltyAdaptation::kSoftIntensity)
     requireRange("aggregation.p2_min", aggregation.p2_min, aggregation.p1, aggregation.p2);
 
-  requireEnum("winner.subpixel", winner.subpixel, SubpixelMethod::kEquiangular);
+  requireEnum("winner.subpixel", winner.subpixel, SubpixelMethod::kFitted);
   requireRange("winner.uniqueness_percent", winner.uniqueness_percent, 0, 100);
 
   requireRange("validation.left_right_px", validation.left_right_px, -1e6, 1e6);
@@ -91,6 +91,9 @@ void Options::validate() const {
   requireOneOf("validation.median_size", validation.median_size, {0, 3, 5});
 
   requireEnum("completion.method", completion.method, CompletionMethod::kPaper);
+  requireRange("completion.seed_left_right_px", completion.seed_left_right_px, -1e6, 1e6);
+  requireRange("completion.seed_speckle_size_px", completion.seed_speckle_size_px, 0, 1 << 30);
+  requireOneOf("completion.segment_scale", completion.segment_scale, {1, 2, 4});
   requireRange("completion.search_radius_px", completion.search_radius_px, 1, 1 << 20);
   requireRange("completion.sigma_space_px", completion.sigma_space_px, 0.1, 100);
   requireRange("completion.sigma_range", completion.sigma_range, 0.1, 1000);

@@ -12,6 +12,8 @@ std::string_view name(PixelState state) {
       return "interpolated";
     case PixelState::kFilledCoarse:
       return "filled from the coarse maps";
+    case PixelState::kFilledPlane:
+      return "filled from a plane";
     case PixelState::kOccluded:
       return "occluded";
     case PixelState::kMismatched:

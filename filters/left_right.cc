@@ -15,14 +15,12 @@ constexpr auto kMeasured = static_cast<std::uint8_t>(PixelState::kMeasured);
 
 /// The right column nearest to x - d, or -1 if it lies outside the image or d is NaN.
 inline int matchColumn(int x, float d, int width) {
-  const float column =
-      static_cast<float>(x) - d + 0.5f;  // truncation rounds, once it is known not to be negative
+  const float column = static_cast<float>(x) - d + 0.5f;  // truncated below, where it is not negative
   const bool inside = (column >= 0.0f) & (column < static_cast<float>(width));
   return static_cast<int>(inside ? column : -1.0f);
 }
 
-/// True if a right pixel in [begin, end) and its own disparity lead to within `tolerance` of the left column
-/// `x`.
+/// True if some right pixel in [begin, end) matches, by its own disparity, within `tolerance` of column `x`.
 bool epipolarLineMeets(const float* right, int begin, int end, int x, float tolerance) {
   constexpr int kChunk = 32;  // no branch inside: a chunk is tested by vector instructions
   for (; begin + kChunk <= end; begin += kChunk) {

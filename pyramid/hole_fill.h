@@ -14,10 +14,11 @@ namespace pomona {
 struct HoleFillInput {
   GuideView guide;                         ///< the left image
   ImageView<const float> right_disparity;  ///< the right view's map, d = x_left - x_right; NaN where unknown
-  /// The last resort, asked for only if a hole needs it: a map in pixels of this one; may be empty or hold NaN.
+  /// The last resort, asked for only if a hole needs it: a map in pixels of this one; may be empty or hold
+  /// NaN.
   FunctionRef<ImageView<const float>()> coarse;
-  int search_radius_px = 200;              ///< length of a search ray, >= 0
-  float fallback_disparity = 0;            ///< where the whole map offers nothing
+  int search_radius_px = 200;    ///< length of a search ray, >= 0
+  float fallback_disparity = 0;  ///< where the whole map offers nothing
 };
 
 /// What fillHoles() keeps from one call to the next.
@@ -32,22 +33,19 @@ struct HoleFillScratch {
 /// Sources are the measured pixels (state kMeasured, disparity not NaN); they, filled and masked pixels stay
 /// as they are. From a hole p = (x, y), 16 rays (steps (+-1,0) (0,+-1) (+-1,+-1) (+-2,+-1) (+-1,+-2)) run,
 /// across masked pixels too, to their first source within the search radius. Its disparity e is a candidate
-/// with the weight
-///     exp(-|I(p) - I(source)| / 12 - length / 30),  |.| the mean over channels, in 8-bit units; length in
-///     pixels.
-/// A candidate is impossible, and dropped, if the right view sees something at x - e that is farther than e
-/// by more than 1.5 px: a surface at e would hide it from there.
+/// of weight
+///     exp(-|I(p) - I(source)| / 12 - length / 30)
+/// with |.| the mean over channels in 8-bit units, and the length in pixels. A candidate is impossible, and
+/// dropped, if the right view sees something at x - e (nearest pixel, inside the image) that is farther than
+/// e by more than 1.5 px of disparity: a surface at e would hide it from there.
 ///
-/// - Occluded and out-of-range pixels: the weighted lower quartile of the candidates (a pixel hidden from one
-/// view
-///   belongs to the background). State kFilledBackground.
+/// - Occluded and out-of-range pixels: the weighted lower quartile of the candidates, because what only one
+///   view sees belongs to the background. State kFilledBackground.
 /// - Others: the weighted (lower) median. State kFilledInterpolated.
-/// - No possible candidate: the smaller of the sources to the left and right; without them, the smallest
-/// candidate.
-/// - No candidate at all: the coarse map's value. State kFilledCoarse.
-/// - Nor that: the nearest value in the row, then in the column, at any distance (of two as near, the
-/// smaller);
-///   then `fallback_disparity`. State as by the first two rules.
+/// - No possible candidate: the smaller of the sources to the left and right, or without these of all.
+/// - No source within reach: the coarse map's value. State kFilledCoarse.
+/// - Nor that: the nearest value in the row, or else in the column, at any distance (of two as near, the
+///   smaller); else `fallback_disparity`. State as by the first two rules.
 ///
 /// Weights are integers (the product of both exponentials in 1 / 65535, over 16, at least 1), so that their
 /// sums are exact and the result depends on nothing but the input. The rays of all pixels are followed

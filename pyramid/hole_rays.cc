@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
-#include "pomona/pixel_state.h"
+#include "pyramid/holes.h"
 
 namespace pomona {
 namespace {
@@ -12,15 +12,6 @@ namespace {
 constexpr int kPadding = 2;   // a step of a ray spans at most two columns ...
 constexpr int kRingRows = 3;  // ... and two rows
 constexpr int kMinRowsPerStrip = 16;
-
-bool isSource(float disparity, std::uint8_t state) {
-  return isMeasured(static_cast<PixelState>(state)) && !std::isnan(disparity);
-}
-
-bool isHole(float disparity, std::uint8_t state) {
-  const PixelState s = static_cast<PixelState>(state);
-  return isMeasured(s) ? std::isnan(disparity) : isMissing(s) && s != PixelState::kMasked;
-}
 
 void advanceAlongRow(int dx, const std::uint16_t* open, int width, std::uint16_t* out) {
   int steps = HoleRays::kNoSource;

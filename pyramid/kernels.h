@@ -1,4 +1,4 @@
-// The row loops of scaling, pyramids and hole filling, one table of them per instruction set.
+// The inner loops of scaling, pyramids, segments and hole filling, one table of them per instruction set.
 //
 // Every table gives the same bytes: integer sums are exact, float expressions are evaluated per element in
 // the order written here, and nothing is contracted. Rows need no alignment and may have any length >= 0.
@@ -53,22 +53,30 @@ struct PyramidKernels {
   /// inout = weight * inout + (1 - weight) * other
   void (*blend)(const float* other, const float* weight, int n, float* inout);
 
-  /// One step along a ray: out[i] = open[i] & saturating(previous[i] + 1); `open` is 0 at a source, else
-  /// 0xffff.
+  /// One step along a ray: out = open & saturating(previous + 1); `open` is 0 at a source, else 0xffff.
   void (*advanceRays)(const std::uint16_t* previous, const std::uint16_t* open, int n, std::uint16_t* out);
+
+  /// out[i] = |a[i] - b[i]|
+  void (*difference1)(const std::uint8_t* a, const std::uint8_t* b, int n, std::uint8_t* out);
+  /// The same for pixels of three interleaved channels: the largest of their differences.
+  void (*largestDifference3)(const std::uint8_t* a, const std::uint8_t* b, int n, std::uint8_t* out);
+  /// How many of n points have |((a x + b y) + c) - d| < tolerance.
+  int (*countNearPlane)(const float* x, const float* y, const float* d, int n, float a, float b, float c,
+                        float tolerance);
 
   /// out[i] = the bytes of pixel i, the first in the lowest place
   void (*packColors)(const std::uint8_t* in, int channels, int n, std::uint32_t* out);
 
-  /// The candidate (disparity, weight) that a ray gives each of n holes at (x, y), see fillHoles(). `steps`
-  /// is 0xffff where the ray ends at no source; that, and an impossible candidate, gives (+infinity, 0).
+  /// The candidate (disparity, weight) that a ray gives each of n <= kHoleBatch holes at (x, y) of colour
+  /// `here`, see fillHoles(). `steps` is 0xffff where the ray meets no source; that, and an impossible
+  /// candidate, gives (+infinity, 0).
   void (*gatherCandidates)(const CandidateSources& sources, const std::int32_t* x, const std::int32_t* y,
                            const std::uint32_t* here, const std::uint16_t* steps, int n, float* disparity,
                            std::uint32_t* weight);
 
   /// For each of n <= kHoleBatch holes the smallest of its 16 disparities (plane k at k n) that has, together
-  /// with the smaller ones, at least quarters[i] / 4 of all weight: 1 or 2. Exact: the sum of weights must
-  /// fit 32 bits.
+  /// with the smaller ones, at least quarters[i] / 4 (1 or 2) of all weight, whose sum must fit 32 bits;
+  /// +infinity without any.
   void (*weightedQuantile)(const float* disparity, const std::uint32_t* weight, const std::uint32_t* quarters,
                            int n, float* out);
 };

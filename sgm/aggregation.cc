@@ -59,38 +59,23 @@ void Aggregator::reset(const Pass& pass, Sweep& s) {
   s.minima.resize(4 * static_cast<std::size_t>(width + 2));
   std::fill_n(s.minima.data(), 4 * static_cast<std::size_t>(width + 2), 0u);
   s.cost.start(pass.cost);
-  for (Buffer<std::uint32_t>& p2 : s.p2) {
-    p2.resize(width);
-    std::fill_n(p2.data(), width, p2_of_step_[0]);
-  }
 }
 
 /// The steps into row y come from row y + from_row (three paths) and from column x + from_column (the
 /// horizontal one).
 AggregateRow Aggregator::prepareRow(const Pass& pass, Sweep& s, int y, int from_row, int from_column) {
   const int width = pass.cost.width();
+  const std::uint8_t *left = no_steps_.data(), *straight = left, *right = left, *horizontal = left;
   if (pass.options.adaptation != PenaltyAdaptation::kConstant) {
-    // Where there is no predecessor the step is arbitrary: path costs 0 have minimum 0, which no jump
-    // undercuts.
-    const auto fill = [&](Buffer<std::uint32_t>& p2, const std::uint8_t* step, int from, int count) {
-      for (int x = 0; x < count; ++x) p2[x + from] = p2_of_step_[step[x]];
-    };
     const ColorSteps& steps = pass.steps;
-    const bool down = from_row < 0;
     const int seam =
-        down ? y : std::min(y + 1, pass.cost.height() - 1);  // the row that holds the steps across it
-    if (down) {
-      fill(s.p2[0], steps.above_left.row(seam), 0, width);
-      fill(s.p2[2], steps.above_right.row(seam), 0, width);
-    } else {  // from (x - 1, y + 1) to (x, y) is the step that (x - 1, y + 1) sees to its upper right
-      fill(s.p2[0], steps.above_right.row(seam), 1, width - 1);
-      fill(s.p2[2], steps.above_left.row(seam) + 1, 0, width - 1);
-    }
-    fill(s.p2[1], steps.above.row(seam), 0, width);
-    if (from_column < 0)
-      fill(s.p2[3], steps.left.row(y), 0, width);
-    else
-      fill(s.p2[3], steps.left.row(y) + 1, 0, width - 1);
+        from_row < 0 ? y : std::min(y + 1, pass.cost.height() - 1);  // the row that holds the steps
+    straight = steps.above(seam);
+    // Upwards, (x - 1, y + 1) sees the step to (x, y) to its upper right, and (x + 1, y + 1) to its upper
+    // left.
+    left = from_row < 0 ? steps.aboveLeft(seam) : steps.aboveRight(seam) - 1;
+    right = from_row < 0 ? steps.aboveRight(seam) : steps.aboveLeft(seam) + 1;
+    horizontal = steps.left(y) + (from_column < 0 ? 0 : 1);
   }
   return {.width = width,
           .vectors = pass.cost.range().vectors,
@@ -99,7 +84,8 @@ AggregateRow Aggregator::prepareRow(const Pass& pass, Sweep& s, int y, int from_
           .cost = s.cost.row(y),
           .path = {s.path[0].data(), s.path[1].data(), s.path[2].data()},
           .minima = s.minima.data(),
-          .p2 = {s.p2[0].data(), s.p2[1].data(), s.p2[2].data(), s.p2[3].data()},
+          .step = {left, straight, right, horizontal},
+          .p2 = p2_of_step_.data(),
           .p1 = static_cast<std::uint8_t>(pass.options.p1),
           .sums = sums_.data() + static_cast<std::size_t>(y) * pass.rowBytes()};
 }
@@ -117,28 +103,29 @@ void Aggregator::firstPass(const Pass& pass, int which) {
 void Aggregator::lastPass(const Pass& pass, int which, WinnerMaps& out) {
   Sweep& s = sweep_[which];
   const DisparityRange& range = pass.cost.range();
-  const int recent_pixels =
-      static_cast<int>(std::bit_ceil(static_cast<unsigned>(range.disparities + kWinnerDelay + 2)));
+  const int recent_pixels = static_cast<int>(std::bit_ceil(static_cast<unsigned>(range.disparities + 2)));
   s.recent_sums.resize(static_cast<std::size_t>(recent_pixels) * range.lanes());
   const auto complete = [&](int y, int from_row) {
     for (Image<std::uint16_t>* map : {&out.right_index, &out.right_best, &out.right_below, &out.right_above})
       std::fill_n(map->row(y), pass.cost.width(), kNoIndex);
-    pass.kernels.aggregateLast(prepareRow(pass, s, y, from_row, 1), {.disparities = range.disparities,
-                                                                     .min_disparity = range.min_disparity,
-                                                                     .position = position_.data(),
-                                                                     .labels = labels_.data(),
-                                                                     .padding = padding_.data(),
-                                                                     .index = out.index.row(y),
-                                                                     .best = out.best.row(y),
-                                                                     .below = out.below.row(y),
-                                                                     .above = out.above.row(y),
-                                                                     .second = out.second.row(y),
-                                                                     .right_index = out.right_index.row(y),
-                                                                     .right_best = out.right_best.row(y),
-                                                                     .right_below = out.right_below.row(y),
-                                                                     .right_above = out.right_above.row(y),
-                                                                     .recent = s.recent_sums.data(),
-                                                                     .recent_mask = recent_pixels - 1});
+    pass.kernels.aggregateLast(prepareRow(pass, s, y, from_row, 1),
+                               {.disparities = range.disparities,
+                                .min_disparity = range.min_disparity,
+                                .position = position_.data(),
+                                .labels = labels_.data(),
+                                .padded = range.disparities < range.lanes(),
+                                .padding = padding_.data(),
+                                .index = out.index.row(y),
+                                .best = out.best.row(y),
+                                .below = out.below.row(y),
+                                .above = out.above.row(y),
+                                .second = out.second.row(y),
+                                .right_index = out.right_index.row(y),
+                                .right_best = out.right_best.row(y),
+                                .right_below = out.right_below.row(y),
+                                .right_above = out.right_above.row(y),
+                                .recent = s.recent_sums.data(),
+                                .recent_mask = recent_pixels - 1});
   };
   if (which == 0)
     for (int y = pass.middle(); y < pass.cost.height(); ++y) complete(y, -1);
@@ -152,6 +139,8 @@ void Aggregator::run(const MatchingCostRows& cost, const ColorSteps& steps, cons
   const Pass pass{cost, steps, options, kernels, options.p2 > 63};
   for (int step = 0; step < 256; ++step) p2_of_step_[step] = quad(adaptedPenalty(options, step));
 
+  no_steps_.resize(cost.width());
+  std::fill_n(no_steps_.data(), cost.width(), std::uint8_t{0});
   const int lanes = range.lanes();
   position_.resize(range.disparities);
   labels_.resize(lanes);

@@ -34,7 +34,6 @@ class Aggregator {
     Buffer<std::uint32_t> minima;
     CostRowReader cost;
     Buffer<std::uint16_t> recent_sums;
-    std::array<Buffer<std::uint32_t>, 4> p2;
   };
   struct Pass;
 
@@ -46,6 +45,7 @@ class Aggregator {
   std::array<Sweep, 2> sweep_;
   Buffer<std::uint8_t> sums_;
   Buffer<std::uint16_t> position_, labels_, padding_;
+  Buffer<std::uint8_t> no_steps_;                // a row of zeros, for a constant P2
   std::array<std::uint32_t, 256> p2_of_step_{};  // quads
 };
 

@@ -10,10 +10,18 @@ namespace pomona {
 
 /// Largest channel difference, 8-bit units, between (x, y) and one neighbour of the row above or to the left;
 /// 0 where that lies outside the image. The other four neighbours see the same steps from their side.
-struct ColorSteps {
-  Image<std::uint8_t> left, above_left, above, above_right;
-
+class ColorSteps {
+ public:
   void compute(GuideView image, const SgmKernels& kernels, int threads);
+
+  /// Rows are readable from -1 to width.
+  const std::uint8_t* left(int y) const { return left_.row(y) + 1; }
+  const std::uint8_t* aboveLeft(int y) const { return above_left_.row(y) + 1; }
+  const std::uint8_t* above(int y) const { return above_.row(y) + 1; }
+  const std::uint8_t* aboveRight(int y) const { return above_right_.row(y) + 1; }
+
+ private:
+  Image<std::uint8_t> left_, above_left_, above_, above_right_;
 };
 
 }  // namespace pomona

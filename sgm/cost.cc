@@ -94,8 +94,8 @@ void MatchingCostRows::prepareSupport(const ColorSteps& steps, int color_step, i
   arms_.resize(width_, height_);
   parallelStrips(threads, height_, 16, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
-      const std::uint8_t *left = steps.left.row(y), *above = steps.above.row(y);
-      const std::uint8_t* below = steps.above.row(std::min(y + 1, height_ - 1));
+      const std::uint8_t *left = steps.left(y), *above = steps.above(y);
+      const std::uint8_t* below = steps.above(std::min(y + 1, height_ - 1));
       std::uint8_t* arms = arms_.row(y);
       const bool has_above = y > 0, has_below = y + 1 < height_;
       for (int x = 0; x < width_; ++x)

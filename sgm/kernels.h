@@ -76,7 +76,9 @@ struct AggregateRow {
   const std::uint8_t* cost;  ///< width * vectors * kBytes
   std::uint8_t* path[3];     ///< in: costs of the previous row, out: of this one; guard pixels are zero
   std::uint32_t* minima;     ///< 4 quads per pixel (left, straight, right, horizontal); guard pixels are zero
-  const std::uint32_t* p2[4];  ///< quads; penalty of the step into pixel x, in the order of `minima`
+  const std::uint8_t*
+      step[4];  ///< colour step into pixel x, in the order of `minima`; anything at a path's start
+  const std::uint32_t* p2;  ///< 256 quads: the penalty for a colour step
   std::uint8_t p1;
   void* sums;  ///< first pass: out, second pass: in. width * vectors * kBytes bytes or words
 };
@@ -85,6 +87,7 @@ struct WinnerRow {
   int disparities, min_disparity;
   const std::uint16_t* position;  ///< wordPosition of every disparity index
   const std::uint16_t* labels;    ///< disparity index of every word position, kNoIndex for padding
+  bool padded;                    ///< whether there are padded disparities
   const std::uint16_t* padding;   ///< 0xFFFF at padded word positions, 0 elsewhere
   std::uint16_t* index;        ///< out, per pixel: the disparity index of the lowest sum (the lowest if tied)
   std::uint16_t* best;         ///< out: that sum
@@ -97,10 +100,16 @@ struct WinnerRow {
       right_below;  ///< out: the sum one disparity below, seen from the same right pixel; 0xFFFF, like
   std::uint16_t* right_above;  ///< right_above, unless both lie in the image and the range
   std::uint16_t* recent;       ///< scratch: the sums of the last recent_mask + 1 pixels
-  int recent_mask;             ///< a power of two less one; at least disparities + kWinnerDelay + 2 pixels
+  int recent_mask;             ///< a power of two less one; at least disparities + 2 pixels
 };
 constexpr std::uint16_t kNoIndex = 0xFFFF;
-constexpr int kWinnerDelay = 4;
+
+/// Sub-pixel disparities from what winner-take-all left of one row of one view.
+struct RefineRow {
+  int width, disparities, min_disparity;
+  const std::uint16_t *index, *best, *below, *above;
+  float* disparity;  ///< out; NaN where index is kNoIndex
+};
 
 struct SgmKernels {
   int vector_bytes;  ///< kBytes
@@ -121,6 +130,8 @@ struct SgmKernels {
   void (*support)(const SupportRow&);
   /// Left to right; leaves the partial sums of its paths.
   void (*aggregateFirst)(const AggregateRow&);
+  /// One per SubpixelMethod, in its order.
+  void (*refine[4])(const RefineRow&);
   /// Right to left; completes the sums and picks the winners of both views.
   void (*aggregateLast)(const AggregateRow&, const WinnerRow&);
 };

@@ -1,7 +1,6 @@
 #include "sgm/matcher.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "core/parallel.h"
 #include "pomona/pixel_state.h"
@@ -9,56 +8,24 @@
 namespace pomona {
 namespace {
 
-/// Offset of the minimum from the middle of three equidistant costs, in (-0.5, 0.5]. `best` is the smallest,
-/// and smaller than `below`, so no denominator is zero.
-float parabolaOffset(int below, int best, int above) {
-  return 0.5f * static_cast<float>(below - above) / static_cast<float>(below + above - 2 * best);
-}
-float equiangularOffset(int below, int best, int above) {
-  return 0.5f * static_cast<float>(below - above) / static_cast<float>(std::max(below, above) - best);
-}
-
-/// One row of one view: what winner-take-all found, and how far the disparity lies from whole pixels.
-struct WinnerView {
-  const std::uint16_t *index, *best, *below, *above;
-};
-
-template <typename Offset>
-void refineRow(const WinnerView& w, int width, const MatchOptions& o, float* disparity, Offset offset) {
-  for (int x = 0; x < width; ++x) {
-    const bool inner = w.index[x] > 0 && w.index[x] < o.disparities - 1;
-    const float shift = inner ? offset(w.below[x], w.best[x], w.above[x]) : 0.0f;
-    disparity[x] = static_cast<float>(o.min_disparity + w.index[x]) + shift;
-  }
-}
-
-void refineRow(const WinnerView& w, int width, const MatchOptions& o, float* disparity) {
-  switch (o.winner.subpixel) {
-    case SubpixelMethod::kNone:
-      return refineRow(w, width, o, disparity, [](int, int, int) { return 0.0f; });
-    case SubpixelMethod::kParabola:
-      return refineRow(w, width, o, disparity, parabolaOffset);
-    case SubpixelMethod::kEquiangular:
-      return refineRow(w, width, o, disparity, equiangularOffset);
-  }
-}
-
-void finishRow(const WinnerMaps& w, int y, const MatchOptions& o, MatchMaps& out) {
+void finishRow(const WinnerMaps& w, int y, const MatchOptions& o, const SgmKernels& kernels, MatchMaps& out) {
   const int width = w.index.width();
-  refineRow({w.index.row(y), w.best.row(y), w.below.row(y), w.above.row(y)}, width, o, out.disparity.row(y));
-  float* right_disparity = out.right_disparity.row(y);
-  const std::uint16_t* right_index = w.right_index.row(y);
-  refineRow({right_index, w.right_best.row(y), w.right_below.row(y), w.right_above.row(y)}, width, o,
-            right_disparity);
+  const auto refine = kernels.refine[static_cast<int>(o.winner.subpixel)];
+  refine({width, o.disparities, o.min_disparity, w.index.row(y), w.best.row(y), w.below.row(y),
+          w.above.row(y), out.disparity.row(y)});
+  refine({width, o.disparities, o.min_disparity, w.right_index.row(y), w.right_best.row(y),
+          w.right_below.row(y), w.right_above.row(y), out.right_disparity.row(y)});
 
   const float per_path = 1.0f / static_cast<float>(o.aggregation.paths);
   const int keep_percent = 100 - o.winner.uniqueness_percent;
+  const bool everything = o.winner.uniqueness_percent == 0;
   const std::uint16_t *best = w.best.row(y), *second = w.second.row(y);
+  float* margin = out.margin.row(y);
+  std::uint8_t* state = out.state.row(y);
   for (int x = 0; x < width; ++x) {
-    const bool unique = o.winner.uniqueness_percent == 0 || 100 * best[x] <= keep_percent * second[x];
-    out.margin.row(y)[x] = static_cast<float>(std::max(0, second[x] - best[x])) * per_path;
-    out.state.row(y)[x] = static_cast<std::uint8_t>(unique ? PixelState::kMeasured : PixelState::kAmbiguous);
-    if (right_index[x] == kNoIndex) right_disparity[x] = std::numeric_limits<float>::quiet_NaN();
+    margin[x] = static_cast<float>(std::max(0, second[x] - best[x])) * per_path;
+    const bool unique = everything | (100 * best[x] <= keep_percent * second[x]);
+    state[x] = static_cast<std::uint8_t>(unique ? PixelState::kMeasured : PixelState::kAmbiguous);
   }
 }
 
@@ -107,7 +74,7 @@ void SgmMatcher::match(const MatchInput& pair, const MatchOptions& options,
 
   out.resize(width, height);
   parallelStrips(threads, height, 16, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) finishRow(winners_, y, options, out);
+    for (int y = begin; y < end; ++y) finishRow(winners_, y, options, kernels, out);
   });
 }
 

@@ -48,6 +48,9 @@ class SgmMatcher {
   void match(const MatchInput& pair, const MatchOptions& options, std::span<const std::uint8_t> table,
              const SgmKernels& kernels, MatchMaps& out, int threads);
 
+  /// The sums behind the last match.
+  const WinnerMaps& winners() const { return winners_; }
+
  private:
   struct View {
     CensusPlanes census;

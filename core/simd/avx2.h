@@ -130,6 +130,11 @@ POMONA_OP void keepSmaller(U16& best, U16& label, U16 v, U16 v_label) {
   best = _mm256_min_epu16(best, v);
   label = _mm256_blendv_epi8(label, v_label, _mm256_cmpeq_epi16(best, v));
 }
+POMONA_OP U16 minimumAway(U16 smallest, U16 v, U16 label, U16 first) {
+  const U16 distance = _mm256_sub_epi16(label, first);
+  const U16 near = _mm256_cmpeq_epi16(_mm256_min_epu16(distance, _mm256_set1_epi16(2)), distance);
+  return _mm256_min_epu16(smallest, _mm256_or_si256(v, near));
+}
 POMONA_OP void dropFirstLane(U16& low, U16& high, U16 fill) {
   const U16 next = _mm256_permute2x128_si256(low, fill, 0x21);
   low = _mm256_alignr_epi8(high, low, 2);

@@ -135,6 +135,10 @@ POMONA_OP void keepSmaller(U16& best, U16& label, U16 v, U16 v_label) {
   best = _mm512_min_epu16(best, v);
   label = _mm512_mask_mov_epi16(label, take, v_label);
 }
+POMONA_OP U16 minimumAway(U16 smallest, U16 v, U16 label, U16 first) {
+  const __mmask32 away = _mm512_cmpgt_epu16_mask(_mm512_sub_epi16(label, first), _mm512_set1_epi16(2));
+  return _mm512_mask_min_epu16(smallest, away, smallest, v);
+}
 POMONA_OP void dropFirstLane(U16& low, U16& high, U16 fill) {
   const U16 next = _mm512_alignr_epi64(fill, low, 2);
   low = _mm512_alignr_epi8(high, low, 2);

@@ -41,14 +41,35 @@ inline void storeFirst(float* p, Floats v, int count) {
 }
 
 inline Floats broadcast(float x) {
-  return x - Floats{};
-}  // x - 0 is x, even for -0
+  return x - Floats{};  // x - 0 is x, even for -0
+}
+
+// a < b ? a : b and a > b ? a : b, so `b` if they are equal or one is NaN. Spelt as intrinsics because GCC
+// does not see through the ternary when one side is a constant; masked, with all lanes on, because GCC 12
+// warns of the uninitialised operand inside its own unmasked ones.
+#if defined(__AVX512F__)
+inline Floats min(Floats a, Floats b) {
+  return _mm512_maskz_min_ps(0xFFFF, a, b);
+}
+inline Floats max(Floats a, Floats b) {
+  return _mm512_maskz_max_ps(0xFFFF, a, b);
+}
+#elif defined(__AVX2__)
+inline Floats min(Floats a, Floats b) {
+  return _mm256_min_ps(a, b);
+}
+inline Floats max(Floats a, Floats b) {
+  return _mm256_max_ps(a, b);
+}
+#else
 inline Floats min(Floats a, Floats b) {
   return a < b ? a : b;
 }
 inline Floats max(Floats a, Floats b) {
   return a > b ? a : b;
 }
+#endif
+
 inline Ints isNan(Floats v) {
   return v != v;
 }

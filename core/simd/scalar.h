@@ -165,6 +165,13 @@ POMONA_OP void keepSmaller(U16& best, U16& label, U16 v, U16 v_label) {
     label.v[i] = take ? v_label.v[i] : label.v[i];
   }
 }
+/// Lane-wise minimum of `smallest` and v, leaving out the lanes whose label is first, first + 1 or first + 2.
+POMONA_OP U16 minimumAway(U16 smallest, U16 v, U16 label, U16 first) {
+  return eachWord([&](int i) {
+    const bool near = static_cast<std::uint16_t>(label.v[i] - first.v[i]) <= 2;
+    return near || smallest.v[i] < v.v[i] ? smallest.v[i] : v.v[i];
+  });
+}
 /// Lane i of the pair takes lane i + 1; the last lane takes the first word of `fill`.
 POMONA_OP void dropFirstLane(U16& low, U16& high, U16 fill) {
   const std::uint16_t first_high = high.v[0];

@@ -38,8 +38,7 @@ inline Floats medianOf(Floats (&v)[kCount]) {
 }
 
 /// Replaces unknown values by -infinity and +infinity in turn. Of m unknown values ceil(m / 2) come to lie
-/// below and floor(m / 2) above the known ones, which puts the known ones' (lower) median in the middle of
-/// all.
+/// below the known ones and floor(m / 2) above, which puts the (lower) median of these in the middle of all.
 template <int kCount>
 inline void balanceUnknown(Floats (&v)[kCount]) {
   Floats stand_in = broadcast(-__builtin_inff());

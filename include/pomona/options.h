@@ -44,10 +44,11 @@ enum class SubpixelMethod {
   kNone,         ///< whole pixels
   kParabola,     ///< vertex of the parabola through three costs
   kEquiangular,  ///< apex of two lines of equal and opposite slope (Shimizu & Okutomi 2001)
+  kFitted,       ///< a curve fitted to the blended cost on rendered scenes (bench/subpixel)
 };
 
 struct WinnerOptions {
-  SubpixelMethod subpixel = SubpixelMethod::kEquiangular;
+  SubpixelMethod subpixel = SubpixelMethod::kFitted;
   /// Reject a pixel if its best cost is not at least this many percent below the best cost found more than
   /// one disparity away. 0 accepts everything; 0..100.
   int uniqueness_percent = 0;
@@ -70,6 +71,13 @@ enum class CompletionMethod {
 
 struct CompletionOptions {
   CompletionMethod method = CompletionMethod::kFillHoles;
+  /// kFillHoles spreads measured disparities over holes, so it is stricter about which pixels count as
+  /// measured than a sparse map is: these two take the place of those in ValidationOptions.
+  float seed_left_right_px = 0.7f;
+  int seed_speckle_size_px = 100;
+  /// kFillHoles: holes first take the plane that the measured pixels of their colour segment lie on.
+  bool segment_planes = true;
+  int segment_scale = 4;  ///< segments are found in the image reduced so many times: 1, 2 or 4
   /// A hole is filled from measured pixels at most this far away (pixels along a search ray); farther away
   /// the coarse maps decide. At least 1.
   int search_radius_px = 200;

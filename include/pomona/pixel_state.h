@@ -14,6 +14,7 @@ enum class PixelState : std::uint8_t {
   kFilledBackground = 1,    ///< occluded; the background beside it was extended
   kFilledInterpolated = 2,  ///< rejected for another reason; interpolated from measured pixels around it
   kFilledCoarse = 3,        ///< nothing near supported a value; taken from the 1/4- and 1/5-scale maps
+  kFilledPlane = 4,         ///< lies on the plane of its colour segment's measured pixels
 
   // Missing: the disparity is NaN.
   kOccluded = 16,    ///< seen by the left camera only

@@ -18,15 +18,14 @@ inline std::int32_t byteDifference(std::uint32_t a, std::uint32_t b, int shift) 
   return d < 0 ? -d : d;
 }
 
-// One element at a time on purpose: left to itself, GCC takes vectors of indices apart again, which is
-// slower.
+// One element at a time on purpose: left to itself, GCC takes vectors of indices apart, which is slower.
 template <typename T>
 __attribute__((optimize("no-tree-vectorize"))) void lookUp(const T* table, const std::int32_t* index, int n,
                                                            T* __restrict out) {
   for (int i = 0; i < n; ++i) out[i] = table[index[i]];
 }
 
-// Masks by multiplication with -1 or 0 where a conditional would keep GCC from vectorising.
+// Masks of all ones or none (-bool) stand where a conditional would keep GCC from vectorising.
 void gatherCandidates(const CandidateSources& sources, const std::int32_t* x, const std::int32_t* y,
                       const std::uint32_t* here, const std::uint16_t* steps, int n,
                       float* __restrict disparity, std::uint32_t* __restrict weight) {

@@ -5,6 +5,7 @@
 #include "pyramid/kernels/laplacian.inl"
 #include "pyramid/kernels/rays.inl"
 #include "pyramid/kernels/scale.inl"
+#include "pyramid/kernels/segments.inl"
 // clang-format on
 
 namespace pomona {
@@ -22,6 +23,9 @@ constexpr PyramidKernels kTable = {
     .average = average,
     .blend = blend,
     .advanceRays = advanceRays,
+    .difference1 = difference1,
+    .largestDifference3 = largestDifference3,
+    .countNearPlane = countNearPlane,
     .packColors = packColors,
     .gatherCandidates = gatherCandidates,
     .weightedQuantile = weightedQuantile,

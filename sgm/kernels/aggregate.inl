@@ -74,25 +74,25 @@ POMONA_OP void sweepRow(const AggregateRow& r, Emit&& emit) {
   for (int i = 0; i < r.width; ++i, x += kStep) {
     U8 cost[kN], previous[kN], to_behind[kN], to_straight[kN], to_ahead[kN], to_horizontal[kN];
     loadPixel<kVectors>(r.cost + x * pixel, cost, n);
-    const U8 m3 = extendPath<kVectors>(horizontal, horizontal_minimum, p1, simd::broadcastQuad(r.p2[3] + x),
-                                       cost, to_horizontal, n);
+    const U8 m3 = extendPath<kVectors>(horizontal, horizontal_minimum, p1,
+                                       simd::broadcastQuad(r.p2 + r.step[3][x]), cost, to_horizontal, n);
     const U8 straight_minimum = simd::broadcastQuad(minima + 4 * x + 1);
     loadPixel<kVectors>(straight + x * pixel, previous, n);
-    const U8 m1 = extendPath<kVectors>(previous, straight_minimum, p1, simd::broadcastQuad(r.p2[1] + x), cost,
-                                       to_straight, n);
+    const U8 m1 = extendPath<kVectors>(previous, straight_minimum, p1,
+                                       simd::broadcastQuad(r.p2 + r.step[1][x]), cost, to_straight, n);
     storePixel<kVectors>(straight + x * pixel, to_straight, n);
     U8 m_behind = m1, m_ahead = m1;
     if constexpr (kDiagonals) {
-      m_behind = extendPath<kVectors>(carried, carried_minimum, p1, simd::broadcastQuad(r.p2[kBehind] + x),
-                                      cost, to_behind, n);
+      m_behind = extendPath<kVectors>(carried, carried_minimum, p1,
+                                      simd::broadcastQuad(r.p2 + r.step[kBehind][x]), cost, to_behind, n);
       carried_minimum = simd::broadcastQuad(minima + 4 * x + kBehind);
       loadPixel<kVectors>(behind + x * pixel, carried, n);
       storePixel<kVectors>(behind + x * pixel, to_behind, n);
 
       const U8 ahead_minimum = simd::broadcastQuad(minima + 4 * (x + kStep) + kAhead);
       loadPixel<kVectors>(ahead + (x + kStep) * pixel, previous, n);
-      m_ahead = extendPath<kVectors>(previous, ahead_minimum, p1, simd::broadcastQuad(r.p2[kAhead] + x), cost,
-                                     to_ahead, n);
+      m_ahead = extendPath<kVectors>(previous, ahead_minimum, p1,
+                                     simd::broadcastQuad(r.p2 + r.step[kAhead][x]), cost, to_ahead, n);
       storePixel<kVectors>(ahead + x * pixel, to_ahead, n);
     }
     const simd::Minima all =
@@ -168,7 +168,7 @@ void lastPass(const AggregateRow& r, const WinnerRow& w) {
     }
     winner.template pixel<kVectors>(static_cast<int>(x), sums);
   });
-  winner.finish();
+  winner.template finish<kVectors>();
 }
 
 template <int kVectors, typename F>

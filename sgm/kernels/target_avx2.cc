@@ -2,18 +2,21 @@
 #include "sgm/kernels/aggregate.inl"
 #include "sgm/kernels/cost.inl"
 #include "sgm/kernels/features.inl"
+#include "sgm/kernels/refine.inl"
 
 namespace pomona {
 extern const SgmKernels kSgmKernelsAvx2;
-const SgmKernels kSgmKernelsAvx2 = {simd::kBytes,
-                                    censusRow<std::uint8_t>,
-                                    censusRow<std::uint16_t>,
-                                    sobelRow,
-                                    colorStepRow,
-                                    censusCost,
-                                    tableCost,
-                                    blendedCost,
-                                    support,
-                                    aggregateFirst,
-                                    aggregateLast};
+const SgmKernels kSgmKernelsAvx2 = {.vector_bytes = simd::kBytes,
+                                    .census8 = censusRow<std::uint8_t>,
+                                    .census16 = censusRow<std::uint16_t>,
+                                    .sobel = sobelRow,
+                                    .colorSteps = colorStepRow,
+                                    .censusCost = censusCost,
+                                    .tableCost = tableCost,
+                                    .blendedCost = blendedCost,
+                                    .support = support,
+                                    .aggregateFirst = aggregateFirst,
+                                    .refine = {refineRow<NoOffset>, refineRow<ParabolaOffset>,
+                                               refineRow<EquiangularOffset>, refineRow<FittedOffset>},
+                                    .aggregateLast = aggregateLast};
 }  // namespace pomona

@@ -1,0 +1,32 @@
+// What a hole is, what may fill one, and what may not.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/image.h"
+#include "pomona/pixel_state.h"
+
+namespace pomona {
+
+/// A pixel whose disparity others may be filled from.
+inline bool isSource(float disparity, std::uint8_t state) {
+  return isMeasured(static_cast<PixelState>(state)) && !std::isnan(disparity);
+}
+
+/// A pixel to be filled: missing but not masked, or measured but NaN.
+inline bool isHole(float disparity, std::uint8_t state) {
+  const PixelState s = static_cast<PixelState>(state);
+  return isMeasured(s) ? std::isnan(disparity) : isMissing(s) && s != PixelState::kMasked;
+}
+
+/// True if a surface of disparity `e` at the left view's (x, y) cannot be there: at x - e, rounded, the right
+/// view sees something that is farther away by more than 1.5 px, which the surface would hide from it.
+inline bool wouldHideFromRight(ImageView<const float> right_disparity, int y, int x, float e) {
+  constexpr float kTolerance_px = 1.5f;
+  const float x_right = std::floor(static_cast<float>(x) - e + 0.5f);
+  if (!(x_right >= 0 && x_right < static_cast<float>(right_disparity.width))) return false;
+  return right_disparity.at(y, static_cast<int>(x_right)) < e - kTolerance_px;
+}
+
+}  // namespace pomona

@@ -1,0 +1,42 @@
+// The plane d = a x + b y + c that most of a set of measured disparities lie near.
+#pragma once
+
+#include <cstdint>
+
+#include "pyramid/kernels.h"
+
+namespace pomona {
+
+struct DisparityPlane {
+  float a, b, c;  ///< pixels per pixel, pixels per pixel, pixels
+  float at(float x, float y) const { return a * x + b * y + c; }
+};
+
+/// Up to kCapacity points (x, y, d), pixels. Coordinates should be small: take an origin nearby.
+struct PlanePoints {
+  static constexpr int kCapacity = 512;
+  int count = 0;
+  float x[kCapacity], y[kCapacity], d[kCapacity];
+
+  void add(float px, float py, float disparity) {
+    x[count] = px;
+    y[count] = py;
+    d[count++] = disparity;
+  }
+};
+
+struct PlaneFit {
+  DisparityPlane plane;
+  int inliers;  ///< points less than kPlaneTolerance_px away from the plane; 0 if there is no plane
+};
+
+constexpr float kPlaneTolerance_px = 1.0f;
+constexpr float kMaxPlaneSlope = 0.6f;  ///< of |a| and |b|; steeper surfaces show themselves to one view only
+
+/// RANSAC (M. A. Fischler and R. C. Bolles, "Random sample consensus", Comm. ACM 24(6), 1981), then two
+/// rounds of least squares over the inliers. The samples are drawn by a generator seeded with `seed`: equal
+/// input gives equal bytes. No plane (0 inliers) if no sample of three points spans one within the slope
+/// limit.
+PlaneFit fitPlane(const PlanePoints& points, std::uint32_t seed, const PyramidKernels& kernels);
+
+}  // namespace pomona
