@@ -5,6 +5,8 @@
 #include <opencv2/core/utility.hpp>
 #include <stdexcept>
 
+#include "core/parallel.h"
+
 namespace pomona {
 namespace {
 
@@ -40,7 +42,8 @@ std::vector<NamedMethod> makeMethods(const MethodArguments& arguments) {
   if (arguments.threads < 0 || arguments.threads > kMostThreads)
     throw std::invalid_argument("--threads is " + std::to_string(arguments.threads) + "; allowed: 0 to " +
                                 std::to_string(kMostThreads));
-  if (arguments.threads > 0) cv::setNumThreads(arguments.threads);  // OpenCV's matchers ask OpenCV only
+  // OpenCV's matchers ask OpenCV only. More threads than processors it would answer with a warning.
+  if (arguments.threads > 0) cv::setNumThreads(std::min(arguments.threads, availableThreads()));
   std::vector<NamedMethod> chosen;
   if (arguments.names == std::vector<std::string>{"all"}) {
     for (const MethodInfo& method : methods()) chosen.push_back({std::string(method.name), method.make()});

@@ -61,23 +61,24 @@ function sortableTable(first, columns, rows, best) {
   return make("table", {}, make("thead", {}, make("tr", {}, ...heads)), body);
 }
 
-function extreme(values, column) {
-  const known = values.filter((value) => value != null);
-  return known.length ? (biggerIsBetter(column) ? Math.max : Math.min)(...known) : null;
+/** The best of several values; null if they do not differ. */
+function bestOf(values, column) {
+  const known = values.filter((value) => value != null), low = Math.min(...known), high = Math.max(...known);
+  return low < high ? (biggerIsBetter(column) ? high : low) : null;
 }
 
 /** Methods down, figures across; `figuresOf(method)` gives a value per column. */
 function methodTable(figuresOf) {
   const used = record.columns.map((column, i) => i).filter((i) =>
       (shown.everyColumn || record.columns[i].main) && record.methods.some((m) => figuresOf(m)?.[i] != null));
-  const bests = used.map((i) => extreme(record.methods.map((m) => figuresOf(m)?.[i]), record.columns[i]));
+  const bests = used.map((i) => bestOf(record.methods.map((m) => figuresOf(m)?.[i]), record.columns[i]));
   const rows = record.methods.filter(figuresOf).map((method) => ({
     label: method,
     head: () => make("span", {}, dot(method), method),
     cells: used.map((i, k) => ({value: figuresOf(method)[i], k, text: text(figuresOf(method)[i], record.columns[i])})),
   }));
   return sortableTable({name: "method"}, used.map((i) => record.columns[i]), rows,
-                       (row, cell) => cell.value != null && cell.value === bests[cell.k] && rows.length > 1);
+                       (row, cell) => cell.value != null && cell.value === bests[cell.k]);
 }
 
 function sceneTable() {
@@ -92,9 +93,9 @@ function sceneTable() {
     cells: cellsOf((method) => scene.methods[method]?.[shown.region]),
   }));
   rows.push({label: "mean", last: true, head: () => "mean", cells: cellsOf((m) => record.means[m][shown.region])});
-  for (const row of rows) row.best = extreme(row.cells.map((cell) => cell.value), column);
+  for (const row of rows) row.best = bestOf(row.cells.map((cell) => cell.value), column);
   return sortableTable({name: "scene"}, record.methods.map((name) => ({name})), rows,
-                       (row, cell) => cell.value != null && cell.value === row.best && row.cells.length > 1);
+                       (row, cell) => cell.value != null && cell.value === row.best);
 }
 
 // ---- Charts
