@@ -13,9 +13,9 @@
 #include <string>
 
 #include "apps/compute_files.h"
-#include "apps/score.h"
 #include "apps/verbs.h"
 #include "pomona/engine.h"
+#include "pomona/evaluation.h"
 
 namespace pomona {
 namespace {
@@ -101,11 +101,13 @@ void printSummary(const ComputeArguments& arguments, const SearchRange& range, c
       print("  %-28s %8.2f ms", std::string(timing.stage).c_str(), timing.milliseconds);
 }
 
-void printScore(const Score& score) {
+void printErrors(const DisparityErrors& errors) {
+  constexpr std::size_t kOnePixel = 1, kTwoPixels = 2;  // in kBadThresholds_px
   print(
-      "ground truth: %zu known pixels, bad-1 %.2f %%, bad-2 %.2f %%, average error %.3f px, coverage %.2f %%",
-      score.known_pixels, score.bad1_percent, score.bad2_percent, score.average_error_px,
-      score.coverage_percent);
+      "ground truth: %lld known pixels, bad-1 %.2f %%, bad-2 %.2f %%, average error %.3f px, coverage %.2f "
+      "%%",
+      static_cast<long long>(errors.known), errors.badPercent(kOnePixel), errors.badPercent(kTwoPixels),
+      errors.averageErrorPx(), errors.coveragePercent());
 }
 
 void compute(const ComputeArguments& arguments) {
@@ -127,7 +129,7 @@ void compute(const ComputeArguments& arguments) {
 
   writeFiles(encodeOutputs(arguments.paths, inputs, result));
   printSummary(arguments, range, result, elapsed.count());
-  if (!inputs.ground_truth.empty()) printScore(scoreAgainst(result.disparity, inputs.ground_truth));
+  if (!inputs.ground_truth.empty()) printErrors(compareWithTruth(result.disparity, inputs.ground_truth));
 }
 
 void addFileOptions(CLI::App& verb, ComputePaths& paths) {

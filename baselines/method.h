@@ -14,7 +14,8 @@ struct MethodOptions {
   int min_disparity = 0;     ///< smallest disparity searched, pixels; may be negative
   int num_disparities = 64;  ///< number of disparities searched, 1..1024; at most the image width
   OutputMode mode = OutputMode::kDense;
-  /// The winner of every pixel as it is: nothing checked, removed, smoothed or filled. Overrides `mode`.
+  /// The winner of every pixel as it is, a whole disparity: nothing checked, removed, smoothed or filled.
+  /// Overrides `mode`. (OpenCV's matchers always refine below the pixel.)
   bool raw = false;
   int threads = 0;  ///< worker threads; 0: one per available processor. OpenCV's methods choose their own.
 };

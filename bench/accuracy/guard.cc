@@ -17,8 +17,8 @@ std::string describe(const std::string& method, Figure figure, double found, con
   return out.str();
 }
 
-std::vector<Figure> errorFigures(bool dense) {
-  return dense ? std::vector{kBad1, kBad2} : std::vector{kWrong1, kWrong2};
+std::vector<Figure> errorFigures(MapKind kind) {
+  return kind == MapKind::kSparse ? std::vector{kWrong1, kWrong2} : std::vector{kBad1, kBad2};
 }
 
 std::vector<std::string> scenesOf(const MethodFigures& method) {
@@ -30,37 +30,39 @@ std::vector<std::string> scenesOf(const MethodFigures& method) {
 }  // namespace
 
 // A figure that is NaN must fail, hence the conditions of the form !(good).
-std::vector<std::string> accuracyFailures(const std::vector<Method>& methods,
+std::vector<std::string> accuracyFailures(const std::vector<Contender>& contenders,
                                           const std::vector<MethodFigures>& found,
                                           const AcceptedFigures& accepted) {
   std::vector<std::string> failures;
-  for (std::size_t i = 0; i < methods.size(); ++i) {
-    const Method& method = methods[i];
-    if (method.name.starts_with(kPeer)) continue;
+  for (std::size_t i = 0; i < contenders.size(); ++i) {
+    const Contender& contender = contenders[i];
+    if (contender.method.starts_with("opencv")) continue;
+    const std::string name = contender.name();
     const Figures mean = found[i].mean().all;
     if (scenesOf(found[i]) != accepted.scenes) return {"the scenes are not those of the accepted figures"};
-    const auto before = accepted.mean.find(method.name);
+    const auto before = accepted.mean.find(name);
     if (before == accepted.mean.end()) {
-      failures.push_back(method.name + ": no accepted figures");
+      failures.push_back(name + ": no accepted figures");
       continue;
     }
-    for (const Figure figure : errorFigures(method.dense)) {
+    for (const Figure figure : errorFigures(contender.kind)) {
       const double limit = before->second[figure];
       if (!(mean[figure] <= limit + kTolerancePoints))
-        failures.push_back(describe(method.name, figure, mean[figure], "accepted", limit));
+        failures.push_back(describe(name, figure, mean[figure], "accepted", limit));
     }
     if (!(mean[kCoverage] >= before->second[kCoverage] - kTolerancePoints))
-      failures.push_back(
-          describe(method.name, kCoverage, mean[kCoverage], "accepted", before->second[kCoverage]));
+      failures.push_back(describe(name, kCoverage, mean[kCoverage], "accepted", before->second[kCoverage]));
 
-    if (!method.must_match_peer) continue;
-    const auto peer = std::find_if(found.begin(), found.end(), [&](const MethodFigures& other) {
-      return other.dense == method.dense && other.method.starts_with(kPeer);
+    if (!contender.must_match_peer) continue;
+    const auto peer = std::find_if(contenders.begin(), contenders.end(), [&](const Contender& other) {
+      return other.kind == contender.kind && other.method == kPeer;
     });
-    for (const Figure figure : errorFigures(method.dense)) {
-      const double limit = peer == found.end() ? -1 : peer->mean().all[figure];
-      if (!(mean[figure] <= limit))
-        failures.push_back(describe(method.name, figure, mean[figure], kPeer, limit));
+    for (const Figure figure : errorFigures(contender.kind)) {
+      const double limit =
+          peer == contenders.end()
+              ? -1
+              : found[static_cast<std::size_t>(peer - contenders.begin())].mean().all[figure];
+      if (!(mean[figure] <= limit)) failures.push_back(describe(name, figure, mean[figure], kPeer, limit));
     }
   }
   return failures;

@@ -1,4 +1,4 @@
-// Runs every preset and OpenCV's matcher on scenes with known truth, and tabulates how wrong they are.
+// Runs all methods on scenes with known truth, and tabulates how wrong they are.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <memory>
 #include <opencv2/core/utility.hpp>
 #include <stdexcept>
 
@@ -22,6 +23,7 @@ constexpr int kSkipped = 77;  // what ctest takes as "skipped"
 struct Arguments {
   std::string scenes;
   std::string markdown, json, accepted;
+  std::vector<std::string> methods;
 };
 
 // Folders with a pair and its truth, at any depth below `root`, by name.
@@ -44,23 +46,30 @@ int disparitiesNeeded(const cv::Mat& truth) {
   return std::min((needed + 15) / 16 * 16, truth.cols);
 }
 
-SceneFigures measure(const Method& method, const Scene& scene, const std::string& name) {
-  const cv::Mat disparity = method.match(scene.left, scene.right, disparitiesNeeded(scene.ground_truth));
-  SceneFigures figures{name, figuresOf(compareWithTruth(disparity, scene.ground_truth)), figuresOf({})};
+SceneFigures measure(Method& method, const MethodOptions& options, const Scene& scene,
+                     const std::string& name) {
+  const MethodResult result = method.run(scene.left, scene.right, options);
+  SceneFigures figures{name, figuresOf(result, scene.ground_truth), noFigures()};
   if (!scene.nonoccluded.empty())
-    figures.nonoccluded = figuresOf(compareWithTruth(disparity, scene.ground_truth, scene.nonoccluded));
+    figures.nonoccluded = figuresOf(result, scene.ground_truth, scene.nonoccluded);
   return figures;
 }
 
-std::vector<MethodFigures> measureAll(const std::vector<Method>& methods, const std::string& root) {
+std::vector<MethodFigures> measureAll(const std::vector<Contender>& contenders, const std::string& root) {
   std::vector<MethodFigures> results;
-  for (const Method& method : methods) results.push_back({method.name, method.dense, {}});
+  std::vector<std::unique_ptr<Method>> methods;
+  for (const Contender& contender : contenders) {
+    results.push_back({contender.name(), contender.kind, {}});
+    methods.push_back(makeMethod(contender.method));
+  }
   for (const std::filesystem::path& folder : findScenes(root)) {
     const Scene scene = readScene(folder.string());
     const std::string name = folder.filename().string();
     std::fprintf(stderr, "%s\n", name.c_str());
-    for (std::size_t i = 0; i < methods.size(); ++i)
-      results[i].scenes.push_back(measure(methods[i], scene, name));
+    for (std::size_t i = 0; i < contenders.size(); ++i) {
+      const MethodOptions options = contenders[i].options(disparitiesNeeded(scene.ground_truth));
+      results[i].scenes.push_back(measure(*methods[i], options, scene, name));
+    }
   }
   if (results.front().scenes.empty())
     throw std::runtime_error(root + ": no scene (im0.png, disp0GT.pfm) found");
@@ -73,18 +82,20 @@ void write(const std::string& path, const std::string& text) {
 }
 
 int run(const Arguments& arguments) {
-  if (!arguments.accepted.empty() && !std::filesystem::is_directory(arguments.scenes)) {
+  const bool guarding = !arguments.accepted.empty();
+  if (guarding && !std::filesystem::is_directory(arguments.scenes)) {
     std::printf("datasets absent: skipped (set POMONA_DATASETS to a folder of Middlebury-layout scenes)\n");
     return kSkipped;
   }
-  const std::vector<Method> methods = accuracyMethods();
-  const std::vector<MethodFigures> results = measureAll(methods, arguments.scenes);
+  const std::vector<Contender> compared =
+      contenders(guarding && arguments.methods.empty() ? guardedMethods() : arguments.methods);
+  const std::vector<MethodFigures> results = measureAll(compared, arguments.scenes);
   const std::string table = markdown(results);
   std::cout << table;
   write(arguments.markdown, table);
   write(arguments.json, json(results));
-  if (arguments.accepted.empty()) return 0;
-  const auto failures = accuracyFailures(methods, results, readAccepted(arguments.accepted));
+  if (!guarding) return 0;
+  const auto failures = accuracyFailures(compared, results, readAccepted(arguments.accepted));
   for (const std::string& failure : failures) std::cout << "FAILED: " << failure << "\n";
   return failures.empty() ? 0 : 1;
 }
@@ -94,10 +105,13 @@ int run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   pomona::Arguments arguments;
-  CLI::App app("Accuracy of all presets and of OpenCV StereoSGBM MODE_HH on scenes in Middlebury's layout");
+  CLI::App app("Accuracy of all methods on scenes in Middlebury's layout");
   app.add_option("scenes", arguments.scenes, "folder below which the scenes lie")->required();
   app.add_option("--markdown", arguments.markdown, "write the tables to this file");
   app.add_option("--json", arguments.json, "write the figures to this file");
+  app.add_option("--methods", arguments.methods,
+                 "only these methods (default: all; with --guard, the fast ones)")
+      ->delimiter(',');
   app.add_option("--guard", arguments.accepted,
                  "fail if the figures are worse than those of this earlier --json");
   CLI11_PARSE(app, argc, argv);

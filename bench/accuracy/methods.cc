@@ -1,40 +1,53 @@
 #include "bench/accuracy/methods.h"
 
-#include "bench/accuracy/opencv_peer.h"
-#include "pomona/engine.h"
+#include <algorithm>
+#include <array>
+#include <string_view>
 
 namespace pomona {
 namespace {
 
-Method preset(const std::string& name, OutputMode mode) {
-  const bool dense = mode == OutputMode::kDense;
-  return {name + (dense ? " dense" : " sparse"), dense, name != "paper",
-          [name, mode](const cv::Mat& left, const cv::Mat& right, int num_disparities) {
-            Options options = Options::preset(name);
-            options.mode = mode;
-            options.num_disparities = num_disparities;
-            return computeDisparity(left, right, options).disparity;
-          }};
+constexpr std::array<std::string_view, 4> kPresets = {"fast", "balanced", "quality", "paper"};
+constexpr std::array<std::string_view, 3> kWindowMethods = {"ssd", "ncc", "asw"};
+
+bool contains(std::span<const std::string_view> names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-Method peer(bool dense) {
-  return {std::string(kPeer) + (dense ? " dense" : " sparse"), dense, false,
-          [dense](const cv::Mat& left, const cv::Mat& right, int num_disparities) {
-            cv::Mat disparity = matchWithOpenCv(left, right, num_disparities);
-            if (dense) fillRowsFromBackground(disparity);
-            return disparity;
-          }};
+std::vector<std::string> allMethods() {
+  std::vector<std::string> names(kPresets.begin(), kPresets.end());
+  names.insert(names.end(), kWindowMethods.begin(), kWindowMethods.end());
+  for (const MethodInfo& method : methods())
+    if (!contains(kPresets, method.name) && !contains(kWindowMethods, method.name))
+      names.emplace_back(method.name);
+  return names;
 }
 
 }  // namespace
 
-std::vector<Method> accuracyMethods() {
-  std::vector<Method> methods;
-  for (const OutputMode mode : {OutputMode::kDense, OutputMode::kSparse}) {
-    for (const char* name : {"fast", "balanced", "quality", "paper"}) methods.push_back(preset(name, mode));
-    methods.push_back(peer(mode == OutputMode::kDense));
-  }
-  return methods;
+MethodOptions Contender::options(int num_disparities) const {
+  MethodOptions options;
+  options.num_disparities = num_disparities;
+  options.mode = kind == MapKind::kDense ? OutputMode::kDense : OutputMode::kSparse;
+  options.raw = kind == MapKind::kRaw;
+  return options;
+}
+
+std::vector<Contender> contenders(std::span<const std::string> names) {
+  const std::vector<std::string> all = allMethods();
+  if (names.empty()) names = all;
+  std::vector<Contender> result;
+  for (const MapKind kind : {MapKind::kDense, MapKind::kSparse, MapKind::kRaw})
+    for (const std::string& name : names) {
+      makeMethod(name);  // throws if there is none
+      if (kind == MapKind::kRaw && !contains(kWindowMethods, name)) continue;
+      result.push_back({name, kind, contains(kPresets, name) && name != "paper"});
+    }
+  return result;
+}
+
+std::vector<std::string> guardedMethods() {
+  return {"fast", "balanced", "quality", "paper", "ssd", "ncc", kPeer};
 }
 
 }  // namespace pomona

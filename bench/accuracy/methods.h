@@ -1,26 +1,39 @@
-// The methods that are compared: Pomona's presets, and OpenCV as the peer to beat.
+// What is compared: the methods of the registry, each in several modes.
 #pragma once
 
-#include <functional>
-#include <opencv2/core.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "baselines/method.h"
+
 namespace pomona {
 
-struct Method {
-  std::string name;  ///< e.g. "balanced dense"
-  bool dense;        ///< fills every pixel; else only what it measured
-  /// Dense and sparse alike must be no worse than the peer of their kind. Not asked of the peer itself, nor
-  /// of the `paper` preset, which reproduces a baseline.
+enum class MapKind {
+  kDense,   ///< every pixel has a value
+  kSparse,  ///< only what passed the checks
+  kRaw,     ///< winners as they are
+};
+inline constexpr const char* kMapKindNames[] = {"dense", "sparse", "raw"};
+
+struct Contender {
+  std::string method;  ///< its name in the registry
+  MapKind kind;
+  /// Dense and sparse alike must be no worse than the peer's map of their kind. Asked of Pomona's presets,
+  /// but for `paper`, which reproduces a baseline.
   bool must_match_peer;
-  /// Left and right view and the number of disparities, from 0 up, to CV_32F; NaN where unknown.
-  std::function<cv::Mat(const cv::Mat&, const cv::Mat&, int)> match;
+
+  std::string name() const { return method + " " + kMapKindNames[static_cast<int>(kind)]; }
+  MethodOptions options(int num_disparities) const;
 };
 
 inline constexpr const char* kPeer = "opencv-hh";
 
-/// In the order of the tables, each once dense and once sparse.
-std::vector<Method> accuracyMethods();
+/// In the order of the tables: presets, window methods, OpenCV's; `names` empty: all. Raw maps are of the
+/// window methods only. Throws std::invalid_argument for a name that is not in the registry.
+std::vector<Contender> contenders(std::span<const std::string> names = {});
+
+/// Those that the guard runs: the presets, the peer, and the fast window methods.
+std::vector<std::string> guardedMethods();
 
 }  // namespace pomona
