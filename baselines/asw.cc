@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "baselines/asw_views.h"
@@ -173,6 +176,18 @@ double scaleTo8Bits(const cv::Mat& left, const cv::Mat& right) {
   return 256.0 / static_cast<double>(std::bit_ceil(static_cast<unsigned>(largest) + 1));
 }
 
+void requireUsable(const AswOptions& options) {
+  if (options.radius < 1 || options.radius > kLargestAswRadius)
+    throw std::invalid_argument("radius is " + std::to_string(options.radius) + "; allowed: 1 to " +
+                                std::to_string(kLargestAswRadius));
+  const std::pair<const char*, float> positive[] = {{"color_gamma", options.color_gamma},
+                                                    {"proximity_gamma", options.proximity_gamma},
+                                                    {"truncation", options.truncation}};
+  for (const auto& [name, value] : positive)
+    if (!(value > 0 && std::isfinite(value)))
+      throw std::invalid_argument(std::string(name) + " is " + std::to_string(value) + "; allowed: above 0");
+}
+
 class Asw : public WindowMethod {
   WindowMaps match(const cv::Mat& left, const cv::Mat& right, SearchRange range, WinnerPosition position,
                    int threads) override {
@@ -189,6 +204,7 @@ constexpr MethodInfo kMethods[] = {
 
 WindowMaps matchAsw(const cv::Mat& left, const cv::Mat& right, const AswOptions& options, SearchRange range,
                     WinnerPosition position, Isa isa, int threads) {
+  requireUsable(options);
   const double scale = scaleTo8Bits(left, right);
   const AswPair pair{AswView(left, scale, options.radius, threads),
                      AswView(right, scale, options.radius, threads),

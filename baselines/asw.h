@@ -27,7 +27,8 @@ struct AswOptions {
 /// at the views' borders.
 ///
 /// The views have equal size and type, CV_8U or CV_16U (brought to 8-bit units) with 1 or 3 channels; a gray
-/// view counts as one with three equal channels.
+/// view counts as one with three equal channels. Throws std::invalid_argument for options outside their
+/// range.
 WindowMaps matchAsw(const cv::Mat& left, const cv::Mat& right, const AswOptions& options, SearchRange range,
                     WinnerPosition position, Isa isa, int threads);
 

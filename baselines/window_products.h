@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <memory>
 #include <opencv2/core.hpp>
+#include <stdexcept>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -109,6 +111,9 @@ struct WindowViews {
 template <template <typename> class Rows>
 WindowMaps matchByProducts(const cv::Mat& left, const cv::Mat& right, int radius, SearchRange range,
                            WinnerPosition position, int threads) {
+  if (radius < 0 || radius > kLargestWindowRadius)
+    throw std::invalid_argument("radius is " + std::to_string(radius) + "; allowed: 0 to " +
+                                std::to_string(kLargestWindowRadius));
   const auto match = [&]<typename T>(T) {
     const WindowViews<T> views(left, right, radius, threads);
     return pickWinners(left.cols, left.rows, range, position, threads,

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "core/cpu.h"
 #include "core/parallel.h"
@@ -10,6 +11,7 @@
 #include "engine/confidence.h"
 #include "engine/hierarchical_mi.h"
 #include "engine/input.h"
+#include "engine/refinement.h"
 #include "engine/sparse_stage.h"
 #include "pyramid/hole_fill.h"
 #include "pyramid/plane_fill.h"
@@ -36,19 +38,22 @@ struct StereoEngine::State {
   CoarseStage coarse;
   PlaneFillScratch plane_fill;
   HoleFillScratch hole_fill;
+  Refinement refinement;
+  Image<float> first_map;
   Image<float> confidence;
   StereoResult result;
 
   explicit State(const Options& o) : options(o), isa(chooseIsa(o.isa)) {
     threads = o.threads > 0 ? o.threads : availableThreads();
-    result.timings.reserve(16);
+    result.timings.reserve(32);
   }
   SparseStage::Settings settings(const cv::Mat& mask) const;
   bool completesBy(CompletionMethod method) const {
     return options.mode == OutputMode::kDense && options.completion.method == method;
   }
   void fillWithCoarse(const SparseStage::Settings& settings);
-  void complete(const SparseStage::Settings& settings);
+  void complete(const SparseStage::Settings& settings, StageClock& clock);
+  void matchAgain(SparseStage::Settings settings, StageClock& clock);
   void publish();
 };
 
@@ -87,7 +92,7 @@ void StereoEngine::State::fillWithCoarse(const SparseStage::Settings& settings) 
   });
 }
 
-void StereoEngine::State::complete(const SparseStage::Settings& settings) {
+void StereoEngine::State::complete(const SparseStage::Settings& settings, StageClock& clock) {
   MatchMaps& maps = sparse.maps();
   const CompletionOptions& completion = options.completion;
   const float min_disparity = static_cast<float>(options.min_disparity);
@@ -98,6 +103,7 @@ void StereoEngine::State::complete(const SparseStage::Settings& settings) {
                     .min_disparity = min_disparity,
                     .max_disparity = static_cast<float>(options.min_disparity + options.num_disparities - 1)},
                    maps.disparity.view(), maps.state.view(), plane_fill, pyramidKernels(isa), threads);
+  clock.lap("segment planes");
   const auto coarse_map = [&] { return coarse.run(input.views(), settings, completion); };
   fillHoles({.guide = input.views().guide,
              .right_disparity = maps.right_disparity.view(),
@@ -105,6 +111,21 @@ void StereoEngine::State::complete(const SparseStage::Settings& settings) {
              .search_radius_px = completion.search_radius_px,
              .fallback_disparity = min_disparity},
             maps.disparity.view(), maps.state.view(), hole_fill, pyramidKernels(isa), threads);
+  clock.lap("hole filling");
+  refinement.run(maps.disparity, input.views().guide, options.completion, filterKernels(isa), threads, clock);
+}
+
+/// The second pass: the completed map, which sparse.maps() holds, becomes the prior of another match.
+void StereoEngine::State::matchAgain(SparseStage::Settings settings, StageClock& clock) {
+  std::swap(first_map, sparse.maps().disparity);
+  MatchInput views = input.views();
+  views.prior = first_map.view();
+  settings.match.cost = options.second_pass.cost;
+  settings.match.aggregation = options.second_pass.aggregation;
+  settings.match.prior_weight = options.second_pass.weight;
+  settings.match.prior_reach_px = options.second_pass.reach_px;
+  sparse.run(views, settings, clock);
+  complete(settings, clock);
 }
 
 void StereoEngine::State::publish() {
@@ -145,8 +166,8 @@ const StereoResult& StereoEngine::compute(const cv::Mat& left, const cv::Mat& ri
     }
     s.sparse.run(s.input.views(), settings, clock);
     if (s.completesBy(CompletionMethod::kFillHoles)) {
-      s.complete(settings);
-      clock.lap("completion");
+      s.complete(settings, clock);
+      if (s.options.second_pass.enabled) s.matchAgain(settings, clock);
     }
   }
   estimateConfidence(s.sparse.maps(), s.options.aggregation, s.confidence, s.threads);

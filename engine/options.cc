@@ -19,16 +19,16 @@ std::string text(double v) {
   return s;
 }
 
-[[noreturn]] void refuse(const char* field, double value, const std::string& allowed) {
-  throw std::invalid_argument(std::string(field) + " is " + text(value) + "; allowed: " + allowed);
+[[noreturn]] void refuse(const std::string& field, double value, const std::string& allowed) {
+  throw std::invalid_argument(field + " is " + text(value) + "; allowed: " + allowed);
 }
 
 /// NaN fails every range.
-void requireRange(const char* field, double value, double low, double high) {
+void requireRange(const std::string& field, double value, double low, double high) {
   if (!(value >= low && value <= high)) refuse(field, value, text(low) + " to " + text(high));
 }
 
-void requireOneOf(const char* field, int value, std::initializer_list<int> allowed) {
+void requireOneOf(const std::string& field, int value, std::initializer_list<int> allowed) {
   std::string list;
   for (int a : allowed) {
     if (a == value) return;
@@ -38,8 +38,26 @@ void requireOneOf(const char* field, int value, std::initializer_list<int> allow
 }
 
 template <typename Enum>
-void requireEnum(const char* field, Enum value, Enum last) {
+void requireEnum(const std::string& field, Enum value, Enum last) {
   requireRange(field, static_cast<int>(value), 0, static_cast<int>(last));
+}
+
+/// `prior`: what else the matching cost can grow by.
+void validateMatch(const std::string& prefix, const CostOptions& cost, const AggregationOptions& aggregation,
+                   int prior) {
+  const auto field = [&](const char* name) { return prefix + name; };
+  requireEnum(field("cost.cost"), cost.cost, MatchingCost::kBlended);
+  requireRange(field("cost.support_color_step"), cost.support_color_step, 0, 255);
+  requireOneOf(field("aggregation.paths"), aggregation.paths, {4, 8});
+  requireEnum(field("aggregation.adaptation"), aggregation.adaptation, PenaltyAdaptation::kSoftIntensity);
+  const int budget = 255 - maximumCost(cost.cost) - prior;
+  requireRange(field("aggregation.p1"), aggregation.p1, 1, budget / 2);
+  if (aggregation.p2 < aggregation.p1 || aggregation.p2 > budget - aggregation.p1)
+    refuse(field("aggregation.p2"), aggregation.p2,
+           text(aggregation.p1) + " to " + text(budget - aggregation.p1) +
+               " (p1 <= p2, and largest matching cost + p1 + p2 <= 255)");
+  if (aggregation.adaptation == PenaltyAdaptation::kSoftIntensity)
+    requireRange(field("aggregation.p2_min"), aggregation.p2_min, aggregation.p1, aggregation.p2);
 }
 
 }  // namespace
@@ -69,18 +87,16 @@ void Options::validate() const {
   requireRange("threads", threads, 0, 1024);
   chooseIsa(isa);
 
-  requireEnum("cost.cost", cost.cost, MatchingCost::kBlended);
-  requireRange("cost.support_color_step", cost.support_color_step, 0, 255);
-  requireOneOf("aggregation.paths", aggregation.paths, {4, 8});
-  requireEnum("aggregation.adaptation", aggregation.adaptation, PenaltyAdaptation::kSoftIntensity);
-  const int budget = 255 - maximumCost(cost.cost);
-  requireRange("aggregation.p1", aggregation.p1, 1, budget / 2);
-  if (aggregation.p2 < aggregation.p1 || aggregation.p2 > budget - aggregation.p1)
-    refuse("aggregation.p2", aggregation.p2,
-           text(aggregation.p1) + " to " + text(budget - aggregation.p1) +
-               " (p1 <= p2, and largest matching cost + p1 + p2 <= 255)");
-  if (aggregation.adaptation == PenaltyAdaptation::kSoftIntensity)
-    requireRange("aggregation.p2_min", aggregation.p2_min, aggregation.p1, aggregation.p2);
+  validateMatch("", cost, aggregation, 0);
+  if (second_pass.enabled) {
+    requireRange("second_pass.weight", second_pass.weight, 1, 16);
+    requireRange("second_pass.reach_px", second_pass.reach_px, 1, 16);
+    if (second_pass.cost.cost == MatchingCost::kMutualInformation)
+      throw std::invalid_argument(
+          "second_pass.cost.cost is mutual information; allowed: the census costs, blended");
+    validateMatch("second_pass.", second_pass.cost, second_pass.aggregation,
+                  second_pass.weight * second_pass.reach_px);
+  }
 
   requireEnum("winner.subpixel", winner.subpixel, SubpixelMethod::kFitted);
   requireRange("winner.uniqueness_percent", winner.uniqueness_percent, 0, 100);
@@ -95,6 +111,7 @@ void Options::validate() const {
   requireRange("completion.seed_speckle_size_px", completion.seed_speckle_size_px, 0, 1 << 30);
   requireOneOf("completion.segment_scale", completion.segment_scale, {1, 2, 4});
   requireRange("completion.search_radius_px", completion.search_radius_px, 1, 1 << 20);
+  requireOneOf("completion.refine_radius_px", completion.refine_radius_px, {2, 3});
   requireRange("completion.sigma_space_px", completion.sigma_space_px, 0.1, 100);
   requireRange("completion.sigma_range", completion.sigma_range, 0.1, 1000);
   requireRange("completion.pyramid_levels", completion.pyramid_levels, 1, 16);
@@ -106,11 +123,16 @@ Options Options::preset(std::string_view name) {
   if (name == "fast") {
     o.cost = {MatchingCost::kCensus5x5, 0};
     o.aggregation = {8, 5, 40, 10, PenaltyAdaptation::kSoftIntensity};
+    o.completion.seed_left_right_px =
+        o.validation.left_right_px;  // census alone leaves fewer seeds to choose from
+    o.completion.seed_speckle_size_px = o.validation.speckle_size_px;
     return o;
   }
   if (name == "quality") {
     o.validation.left_right_px = 0.7f;
     o.validation.speckle_size_px = 100;
+    o.completion.refine_radius_px = 3;
+    o.second_pass.enabled = true;
     return o;
   }
   if (name == "paper") {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace pomona {
 
@@ -26,6 +27,30 @@ struct BilateralWindow {
 /// Below this sum of weights a pixel counts as having no neighbour, and stays unknown.
 inline constexpr float kMinimumBilateralWeight = 1e-20f;
 
+/// One row of a disparity map and its guide, from which the rows above and below can be reached, and pixels
+/// left and right of the image: see filters/guided_plane.h.
+struct GuidedRow {
+  const float* disparity;
+  const std::uint32_t* color;
+  std::ptrdiff_t stride;  ///< of both, in elements
+};
+
+/// The window of filters/weighted_median.h, in reading order.
+struct MedianWindow {
+  static constexpr int kRadius = 5;
+  static constexpr int kTaps = 61;  ///< every other pixel of 11 x 11
+
+  std::int32_t offset[kTaps];  ///< from the pixel, in elements
+  float log_weight[kTaps];     ///< binary logarithm of the spatial weight, <= 0
+  float color_scale;           ///< taken from it per unit of the colour difference, summed over the channels
+};
+
+/// Of filters/plane_refine.h.
+inline constexpr float kPlaneDisparityTolerance_px = 1.0f;
+inline constexpr std::uint8_t kPlaneColorTolerance = 15;
+inline constexpr float kPlaneFewestTaps = 6.0f;
+inline constexpr float kPlaneRidge = 0.3f;
+
 struct FilterKernels {
   /// One row of the NaN-aware median, see filters/median.h. `rows` are the 3 (5) input rows around it,
   /// readable from 1 (2) pixels before their start up to the next multiple of 16 pixels, and 1 (2) more.
@@ -33,6 +58,14 @@ struct FilterKernels {
   void (*median5x5)(const float* const* rows, int width, float* out);
   /// kBilateralBlock pixels of the joint bilateral filter, NaN where unknown, see filters/joint_bilateral.h.
   void (*jointBilateral)(const BilateralWindow& window, float* out);
+  /// near[x] = 1 if pixel x is known and a known pixel of the 3 x 3 around it differs by more than
+  /// `threshold_px`, else 0.
+  void (*nearJumps)(const GuidedRow& row, int width, float threshold_px, std::uint8_t* near);
+  /// out[x] = the weighted median around x, for the `count` known pixels whose columns x are given.
+  void (*weightedMedian)(const GuidedRow& row, const MedianWindow& window, const std::int32_t* columns,
+                         int count, float* out);
+  /// One row of filters/plane_refine.h, for a window radius of 2 and of 3.
+  void (*refinePlanes[2])(const GuidedRow& row, int width, float* out);
 };
 
 /// `isa` must be one of usableIsas().

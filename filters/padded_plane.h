@@ -1,4 +1,4 @@
-// A float image with a border, so that window kernels need no special case at the image's edges.
+// An image with a border, so that window kernels need no special case at the image's edges.
 #pragma once
 
 #include <algorithm>
@@ -10,17 +10,18 @@ namespace pomona {
 
 /// row(y) is valid for y in [-radius, height + radius); in a row, x in [-radius, width + radius + kOverrun)
 /// may be read: kernels work on whole vectors and run past the right edge.
-class PaddedPlane {
+template <typename T>
+class PaddedImage {
  public:
   static constexpr int kOverrun = 15;
 
   /// Sets the border and the overrun to `border`; the image itself is left unspecified.
-  void resize(int width, int height, int radius, float border) {
+  void resize(int width, int height, int radius, T border) {
     radius_ = radius;
     image_.resize(width + 2 * radius + kOverrun, height + 2 * radius);
     for (int y = -radius; y < height + radius; ++y) {
-      float* begin = row(y) - radius;
-      float* end = begin + image_.width();
+      T* begin = row(y) - radius;
+      T* end = begin + image_.width();
       if (y >= 0 && y < height) {
         std::fill(begin, row(y), border);
         begin = row(y) + width;
@@ -28,12 +29,14 @@ class PaddedPlane {
       std::fill(begin, end, border);
     }
   }
-  float* row(int y) { return image_.row(y + radius_) + radius_; }
+  T* row(int y) { return image_.row(y + radius_) + radius_; }
   std::ptrdiff_t stride() const { return image_.view().stride; }
 
  private:
-  Image<float> image_;
+  Image<T> image_;
   int radius_ = 0;
 };
+
+using PaddedPlane = PaddedImage<float>;
 
 }  // namespace pomona

@@ -8,6 +8,7 @@
 
 #include "core/parallel.h"
 #include "pomona/pixel_state.h"
+#include "pyramid/holes.h"
 
 namespace pomona {
 namespace {
@@ -15,7 +16,6 @@ namespace {
 constexpr std::size_t kRowRays = 2;  // kRays[0] and [1]
 constexpr double kColorScale = 12;
 constexpr double kDistanceScale_px = 30;
-constexpr float kVisibilityTolerance_px = 1.5f;
 constexpr int kMinBatchesPerStrip = 16;
 constexpr int kMinLinesPerStrip = 16;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -56,13 +56,12 @@ class HoleFiller {
   bool fillBatch(int batch) {
     const int first = batch * kHoleBatch, n = std::min(kHoleBatch, rays_.count() - first);
     std::int32_t x[kHoleBatch], y[kHoleBatch];
-    std::uint32_t color[kHoleBatch], quarters[kHoleBatch];
+    std::uint32_t color[kHoleBatch];
     for (int i = 0; i < n; ++i) {
       const HoleRays::Pixel p = rays_.holes()[first + i];
       x[i] = p.x;
       y[i] = p.y;
       color[i] = colors_.at(p.y, p.x);
-      quarters[i] = isBackground(state_.at(p.y, p.x)) ? 1 : 2;
     }
     float candidates[kRays.size() * kHoleBatch], chosen[kHoleBatch];
     std::uint32_t weights[kRays.size() * kHoleBatch];
@@ -71,7 +70,7 @@ class HoleFiller {
       kernels_.gatherCandidates(sources_[k], x, y, color, rays_.steps(k) + first, n, candidates + plane,
                                 weights + plane);
     }
-    kernels_.weightedQuantile(candidates, weights, quarters, n, chosen);
+    kernels_.candidateMedian(candidates, weights, n, chosen);
     bool complete = true;
     for (int i = 0; i < n; ++i)
       complete &= fillHole(first + i, std::isinf(chosen[i]) ? leastImpossible(first + i) : chosen[i]);

@@ -30,22 +30,21 @@ struct HoleFillScratch {
 
 /// Gives every pixel that is not measured, filled or kMasked a disparity and a filled state, in place.
 ///
-/// Sources are the measured pixels (state kMeasured, disparity not NaN); they, filled and masked pixels stay
-/// as they are. From a hole p = (x, y), 16 rays (steps (+-1,0) (0,+-1) (+-1,+-1) (+-2,+-1) (+-1,+-2)) run,
-/// across masked pixels too, to their first source within the search radius. Its disparity e is a candidate
-/// of weight
+/// Sources are the measured pixels (state kMeasured, disparity not NaN) and those of state kFilledPlane;
+/// they, other filled and masked pixels stay as they are. From a hole p = (x, y), 16 rays (steps (+-1,0)
+/// (0,+-1) (+-1,+-1) (+-2,+-1) (+-1,+-2)) run, across masked pixels too, to their first source within the
+/// search radius. Its disparity e is a candidate of weight
 ///     exp(-|I(p) - I(source)| / 12 - length / 30)
 /// with |.| the mean over channels in 8-bit units, and the length in pixels. A candidate is impossible, and
 /// dropped, if the right view sees something at x - e (nearest pixel, inside the image) that is farther than
 /// e by more than 1.5 px of disparity: a surface at e would hide it from there.
 ///
-/// - Occluded and out-of-range pixels: the weighted lower quartile of the candidates, because what only one
-///   view sees belongs to the background. State kFilledBackground.
-/// - Others: the weighted (lower) median. State kFilledInterpolated.
+/// - The weighted (lower) median of the candidates. State kFilledBackground for occluded and out-of-range
+///   pixels, whose possible candidates are those of the background, kFilledInterpolated for others.
 /// - No possible candidate: the smaller of the sources to the left and right, or without these of all.
 /// - No source within reach: the coarse map's value. State kFilledCoarse.
 /// - Nor that: the nearest value in the row, or else in the column, at any distance (of two as near, the
-///   smaller); else `fallback_disparity`. State as by the first two rules.
+///   smaller); else `fallback_disparity`. State as by the first rule.
 ///
 /// Weights are integers (the product of both exponentials in 1 / 65535, over 16, at least 1), so that their
 /// sums are exact and the result depends on nothing but the input. The rays of all pixels are followed

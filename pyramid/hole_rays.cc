@@ -13,6 +13,10 @@ constexpr int kPadding = 2;   // a step of a ray spans at most two columns ...
 constexpr int kRingRows = 3;  // ... and two rows
 constexpr int kMinRowsPerStrip = 16;
 
+bool endsRays(float disparity, std::uint8_t state) {
+  return isSource(disparity, state) || static_cast<PixelState>(state) == PixelState::kFilledPlane;
+}
+
 void advanceAlongRow(int dx, const std::uint16_t* open, int width, std::uint16_t* out) {
   int steps = HoleRays::kNoSource;
   for (int i = 0; i < width; ++i) {
@@ -39,7 +43,7 @@ void HoleRays::findHoles(ImageView<const float> disparity, ImageView<const std::
       std::uint16_t* open = open_.row(y);
       int holes = 0;
       for (int x = 0; x < width; ++x) {
-        open[x] = isSource(d[x], s[x]) ? 0 : kNoSource;
+        open[x] = endsRays(d[x], s[x]) ? 0 : kNoSource;
         holes += isHole(d[x], s[x]);
       }
       row_begin[y + 1] = holes;

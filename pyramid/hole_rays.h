@@ -40,7 +40,7 @@ class HoleRays {
   static constexpr std::uint16_t kNoSource = 0xffff;
 
   /// Lists the holes, in row-major order: pixels that are missing but not masked, or measured but NaN.
-  /// Sources are the other measured pixels.
+  /// Sources are the other measured pixels, and those of state kFilledPlane.
   void findHoles(ImageView<const float> disparity, ImageView<const std::uint8_t> state, int threads);
 
   /// Follows all rays from all holes found, up to the longest number of steps within `radius_px`.

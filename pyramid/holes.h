@@ -20,13 +20,15 @@ inline bool isHole(float disparity, std::uint8_t state) {
   return isMeasured(s) ? std::isnan(disparity) : isMissing(s) && s != PixelState::kMasked;
 }
 
+/// How much farther than a surface something must be to count as hidden by it.
+constexpr float kVisibilityTolerance_px = 1.5f;
+
 /// True if a surface of disparity `e` at the left view's (x, y) cannot be there: at x - e, rounded, the right
-/// view sees something that is farther away by more than 1.5 px, which the surface would hide from it.
+/// view sees something farther away than it, which it would hide.
 inline bool wouldHideFromRight(ImageView<const float> right_disparity, int y, int x, float e) {
-  constexpr float kTolerance_px = 1.5f;
   const float x_right = std::floor(static_cast<float>(x) - e + 0.5f);
   if (!(x_right >= 0 && x_right < static_cast<float>(right_disparity.width))) return false;
-  return right_disparity.at(y, static_cast<int>(x_right)) < e - kTolerance_px;
+  return right_disparity.at(y, static_cast<int>(x_right)) < e - kVisibilityTolerance_px;
 }
 
 }  // namespace pomona

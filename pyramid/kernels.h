@@ -60,6 +60,10 @@ struct PyramidKernels {
   void (*difference1)(const std::uint8_t* a, const std::uint8_t* b, int n, std::uint8_t* out);
   /// The same for pixels of three interleaved channels: the largest of their differences.
   void (*largestDifference3)(const std::uint8_t* a, const std::uint8_t* b, int n, std::uint8_t* out);
+  /// sums[i] += 1 if state[i] is `measured` and disparity[i] not NaN; += 256 if it is `measured` but NaN, or
+  /// at least `missing` but not `masked`.
+  void (*countSourcesAndHoles)(const float* disparity, const std::uint8_t* state, std::uint8_t measured,
+                               std::uint8_t missing, std::uint8_t masked, int n, std::uint16_t* sums);
   /// How many of n points have |((a x + b y) + c) - d| < tolerance.
   int (*countNearPlane)(const float* x, const float* y, const float* d, int n, float a, float b, float c,
                         float tolerance);
@@ -75,10 +79,8 @@ struct PyramidKernels {
                            std::uint32_t* weight);
 
   /// For each of n <= kHoleBatch holes the smallest of its 16 disparities (plane k at k n) that has, together
-  /// with the smaller ones, at least quarters[i] / 4 (1 or 2) of all weight, whose sum must fit 32 bits;
-  /// +infinity without any.
-  void (*weightedQuantile)(const float* disparity, const std::uint32_t* weight, const std::uint32_t* quarters,
-                           int n, float* out);
+  /// with the smaller ones, at least half of all weight, whose sum must fit 32 bits; +infinity without any.
+  void (*candidateMedian)(const float* disparity, const std::uint32_t* weight, int n, float* out);
 };
 
 /// The table of an instruction set; that of the scalar build if there is none for it.

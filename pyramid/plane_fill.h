@@ -7,6 +7,7 @@
 #include "core/image.h"
 #include "pyramid/kernels.h"
 #include "pyramid/scale.h"
+#include "pyramid/segment_cells.h"
 #include "pyramid/segmentation.h"
 
 namespace pomona {
@@ -22,32 +23,29 @@ struct PlaneFillInput {
 
 /// What fillFromPlanes() keeps from one call to the next.
 struct PlaneFillScratch {
-  /// One division of the image into segments.
   struct Segments {
-    int count;
-    Image<std::int32_t> labels;
     SegmentationScratch segmentation;
-    Buffer<int> begin;  ///< segment i owns cells[begin[i]] up to, not including, cells[begin[i + 1]]
-    Buffer<int> cells;
+    Buffer<std::int32_t> labels;
+    int count;
   };
   ScaleScratch scale;
   Image<std::uint8_t> reduced_guide;
   SortedEdges edges;
-  std::array<Segments, 3> segments;
-  Buffer<int> column_begin, row_begin;  ///< the image's pixels under each cell
-  Image<std::uint8_t> sources, holes;   ///< how many of them there are in each cell
-  Image<std::uint16_t> column_sums;
+  std::array<Segments, 2> divisions;
+  SegmentCells cells;
 };
 
 /// Fills holes (see holes.h) of `disparity` in place and gives them state kFilledPlane. Other pixels keep
 /// their bytes, and holes that no plane suits stay holes.
 ///
-/// The guide, reduced by area averaging, is divided into segments three times: with k = 100 / scale, three
-/// and nine times that; segments have at least 50 px of the full image. From the finest to the coarsest,
-/// every segment that still has holes gets a robust plane (see plane_fit.h) through its sources, if these are
-/// at least twelve and cover 30 % of it (10 % at the coarsest) and if 70 % (50 %) of them lie near the plane.
-/// Its holes take the plane's disparities where these are within the range and hide nothing that the right
-/// view sees. The result does not depend on the number of threads.
+/// The guide, reduced by area averaging, is divided into segments (see segmentation.h) of at least 100 px of
+/// the full image twice, finely with k = 150 / scale and coarsely with k = 1350 / scale. Every segment with
+/// holes gets a robust plane (see plane_fit.h) through its sources, one of each block of scale x scale
+/// pixels, if there are at least 24 sources, if they are at least 30 % of sources and holes together (2 % in
+/// the coarse division), and if half of them lie near the plane. Its holes take the plane's disparities where
+/// these are within the range and hide nothing that the right view sees. The fine division comes first; the
+/// coarse one fills what it leaves, from measured pixels again. The result does not depend on the number of
+/// threads.
 void fillFromPlanes(const PlaneFillInput& in, ImageView<float> disparity, ImageView<std::uint8_t> state,
                     PlaneFillScratch& scratch, const PyramidKernels& kernels, int threads);
 

@@ -1,12 +1,14 @@
 #include "pyramid/plane_fit.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace pomona {
 namespace {
 
-constexpr int kMaxSamples = 100;
+constexpr int kMaxSamples = 400;
 constexpr double kMissProbability = 0.01;  // that no sample so far consisted of inliers only
 constexpr float kMinDeterminant_px2 = 4;   // twice the area of a sample's triangle
 constexpr int kRefinements = 2;
@@ -62,7 +64,7 @@ PlaneFit bestSample(const PlanePoints& p, std::uint32_t seed, const PyramidKerne
     if (!plane) continue;
     const int inliers = countInliers(*plane, p, kernels);
     if (inliers <= best.inliers) continue;
-    best = {*plane, inliers};
+    best = {*plane, inliers, 0, 0};
     needed = samplesNeeded(static_cast<double>(inliers) / p.count);
   }
   return best;
@@ -96,6 +98,13 @@ PlaneFit fitPlane(const PlanePoints& points, std::uint32_t seed, const PyramidKe
   if (fit.inliers == 0) return fit;
   for (int i = 0; i < kRefinements; ++i) fit.plane = refined(fit.plane, points);
   fit.inliers = countInliers(fit.plane, points, kernels);
+  fit.low = std::numeric_limits<float>::infinity();
+  fit.high = -fit.low;
+  for (int i = 0; i < points.count; ++i) {
+    if (!(std::abs(fit.plane.at(points.x[i], points.y[i]) - points.d[i]) < kPlaneTolerance_px)) continue;
+    fit.low = std::min(fit.low, points.d[i]);
+    fit.high = std::max(fit.high, points.d[i]);
+  }
   return fit;
 }
 

@@ -27,16 +27,17 @@ struct PlanePoints {
 
 struct PlaneFit {
   DisparityPlane plane;
-  int inliers;  ///< points less than kPlaneTolerance_px away from the plane; 0 if there is no plane
+  int inliers;      ///< points less than kPlaneTolerance_px away from the plane; 0 if there is no plane
+  float low, high;  ///< their smallest and largest disparity
 };
 
 constexpr float kPlaneTolerance_px = 1.0f;
 constexpr float kMaxPlaneSlope = 0.6f;  ///< of |a| and |b|; steeper surfaces show themselves to one view only
 
-/// RANSAC (M. A. Fischler and R. C. Bolles, "Random sample consensus", Comm. ACM 24(6), 1981), then two
-/// rounds of least squares over the inliers. The samples are drawn by a generator seeded with `seed`: equal
-/// input gives equal bytes. No plane (0 inliers) if no sample of three points spans one within the slope
-/// limit.
+/// RANSAC (M. A. Fischler and R. C. Bolles, "Random sample consensus", Comm. ACM 24(6), 1981): of planes
+/// through three random points, the one with most inliers; then two rounds of least squares over its inliers.
+/// The generator is seeded with `seed`: equal input gives equal bytes. No plane (0 inliers) if no sample
+/// spans one within the slope limit.
 PlaneFit fitPlane(const PlanePoints& points, std::uint32_t seed, const PyramidKernels& kernels);
 
 }  // namespace pomona

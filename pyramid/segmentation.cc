@@ -1,7 +1,7 @@
 #include "pyramid/segmentation.h"
 
 #include <algorithm>
-#include <numeric>
+#include <utility>
 
 #include "core/parallel.h"
 
@@ -15,40 +15,39 @@ struct Step {
 };
 constexpr std::array<Step, SortedEdges::kDirections> kSteps = {{{1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
 
-// Disjoint sets of pixels. `limit` of a root is Int(C) + k / |C|.
+// Disjoint sets of pixels. The limit of a root is Int(C) + k / |C|.
 class Forest {
  public:
+  using Node = SegmentationScratch::Node;
+
   Forest(int pixels, float k, SegmentationScratch& scratch) : k_(k) {
-    for (Buffer<int>* b : {&scratch.parent, &scratch.size}) b->resize(static_cast<std::size_t>(pixels));
-    scratch.limit.resize(static_cast<std::size_t>(pixels));
-    parent_ = scratch.parent.data();
+    scratch.nodes.resize(static_cast<std::size_t>(pixels));
+    scratch.size.resize(static_cast<std::size_t>(pixels));
+    nodes_ = scratch.nodes.data();
     size_ = scratch.size.data();
-    limit_ = scratch.limit.data();
-    std::iota(parent_, parent_ + pixels, 0);
+    for (int i = 0; i < pixels; ++i) nodes_[i] = {i, k};
     std::fill_n(size_, pixels, 1);
-    std::fill_n(limit_, pixels, k);
   }
   int root(int i) const {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    while (nodes_[i].parent != i) i = nodes_[i].parent = nodes_[nodes_[i].parent].parent;
     return i;
   }
   bool areSimilar(int a, int b, int weight) const {
-    return static_cast<float>(weight) <= std::min(limit_[a], limit_[b]);
+    return static_cast<float>(weight) <= std::min(nodes_[a].limit, nodes_[b].limit);
   }
   bool isOneSmaller(int a, int b, int size) const { return std::min(size_[a], size_[b]) < size; }
-  // Of two roots. Weights only grow, so this one is the largest so far.
+  // Of two roots. While weights only grow, this one is the largest of the component.
   void join(int a, int b, int weight) {
     if (size_[a] < size_[b]) std::swap(a, b);
-    parent_[b] = a;
+    nodes_[b].parent = a;
     size_[a] += size_[b];
-    limit_[a] = static_cast<float>(weight) + k_ / static_cast<float>(size_[a]);
+    nodes_[a].limit = static_cast<float>(weight) + k_ / static_cast<float>(size_[a]);
   }
 
  private:
   float k_;
-  int* parent_;
+  Node* nodes_;
   int* size_;
-  float* limit_;
 };
 
 }  // namespace
@@ -96,7 +95,7 @@ void SortedEdges::build(GuideView image, const PyramidKernels& kernels, int thre
   forEachEdge([&](std::uint8_t weight, std::uint32_t edge) { edges_[next[weight]++] = edge; });
 }
 
-int segment(const SortedEdges& edges, const SegmentationParameters& parameters, Image<std::int32_t>& labels,
+int segment(const SortedEdges& edges, const SegmentationParameters& parameters, Buffer<std::int32_t>& labels,
             SegmentationScratch& scratch) {
   const int pixels = edges.width() * edges.height();
   Forest forest(pixels, parameters.k, scratch);
@@ -118,16 +117,15 @@ int segment(const SortedEdges& edges, const SegmentationParameters& parameters, 
     if (a != b && forest.isOneSmaller(a, b, parameters.min_size_px)) forest.join(a, b, 0);
   }
 
-  int* label_of_root = scratch.size.data();  // sizes have done their duty
-  std::fill_n(label_of_root, pixels, -1);
-  labels.resize(edges.width(), edges.height());
+  // The label at a component's root is -1 until the component is met.
+  labels.resize(static_cast<std::size_t>(pixels));
+  std::fill_n(labels.data(), pixels, -1);
   int segments = 0;
-  for (int y = 0; y < edges.height(); ++y)
-    for (int x = 0; x < edges.width(); ++x) {
-      int& label = label_of_root[forest.root(y * edges.width() + x)];
-      if (label < 0) label = segments++;
-      labels.row(y)[x] = label;
-    }
+  for (int i = 0; i < pixels; ++i) {
+    std::int32_t& label = labels[static_cast<std::size_t>(forest.root(i))];
+    if (label < 0) label = segments++;
+    labels[static_cast<std::size_t>(i)] = label;
+  }
   return segments;
 }
 

@@ -53,19 +53,23 @@ struct SegmentationParameters {
 
 /// What segment() keeps from one call to the next.
 struct SegmentationScratch {
-  Buffer<int> parent, size;
-  Buffer<float> limit;
+  struct Node {
+    int parent;   ///< itself if it is the root of a component
+    float limit;  ///< of a root: the largest weight that joins it to another
+  };
+  Buffer<Node> nodes;
+  Buffer<int> size;  ///< of a root's component
   Buffer<std::uint32_t> between;
 };
 
-/// Divides an image into segments and writes their numbers, 0 up to but not including the returned count, in
-/// row-major order of their first pixels. `labels` is resized to the image.
+/// Divides an image into segments. `labels` receives their numbers row by row, 0 up to but not including the
+/// returned count, in the order of their first pixels.
 ///
 /// Every pixel begins as a component of its own. Edges, in their order, join two components A and B if
 ///     weight <= min(Int(A) + k / |A|, Int(B) + k / |B|),
 /// where Int(C) is the largest weight among the edges that joined C together (0 for a single pixel). Then
 /// edges, in the same order, join different components of which one has fewer than `min_size_px` pixels.
-int segment(const SortedEdges& edges, const SegmentationParameters& parameters, Image<std::int32_t>& labels,
+int segment(const SortedEdges& edges, const SegmentationParameters& parameters, Buffer<std::int32_t>& labels,
             SegmentationScratch& scratch);
 
 }  // namespace pomona

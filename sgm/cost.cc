@@ -1,12 +1,19 @@
 #include "sgm/cost.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <span>
 
 #include "core/parallel.h"
 
 namespace pomona {
+namespace {
+
+constexpr int kPriorSteps = 4;  // ramps per pixel of disparity
+
+}  // namespace
 
 DisparityRange makeRange(int min_disparity, int disparities, const SgmKernels& kernels) {
   return {min_disparity, disparities, vectorsFor(disparities, kernels.vector_bytes), kernels.vector_bytes};
@@ -21,7 +28,7 @@ void MatchingCostRows::prepare(Kind kind, const Features& left, int width, int h
   planes_ = planes;
   range_ = range;
   kernels_ = &kernels;
-  supported_ = false;
+  supported_ = has_prior_ = false;
 
   padding_.resize(range.lanes());
   for (int d = 0; d < range.lanes(); ++d) {
@@ -108,6 +115,32 @@ void MatchingCostRows::prepareSupport(const ColorSteps& steps, int color_step, i
   });
 }
 
+void MatchingCostRows::preparePrior(ImageView<const float> map, int weight, int reach_px, int threads) {
+  has_prior_ = true;
+  const int lanes = range_.lanes(), n = range_.vectors;
+  ramps_.resize(static_cast<std::size_t>(kPriorSteps) * range_.disparities * lanes);
+  for (int to = 0; to < kPriorSteps * range_.disparities; ++to)
+    for (int d = 0; d < lanes; ++d) {
+      // Padded disparities stay the dearest of all.
+      const float distance = std::abs(static_cast<float>(d) - static_cast<float>(to) / kPriorSteps);
+      const float capped = d < range_.disparities ? std::min(distance, static_cast<float>(reach_px))
+                                                  : static_cast<float>(reach_px);
+      ramps_[static_cast<std::size_t>(to) * lanes + d % n * range_.vector_bytes + d / n] =
+          static_cast<std::uint8_t>(static_cast<float>(weight) * capped + 0.5f);
+    }
+  prior_.resize(width_, height_);
+  parallelStrips(threads, height_, 16, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      for (int x = 0; x < width_; ++x) {
+        const float index = map.at(y, x) - static_cast<float>(range_.min_disparity);
+        prior_.row(y)[x] = std::isnan(index) ? kNoIndex
+                                             : static_cast<std::uint16_t>(std::clamp(
+                                                   std::floor(kPriorSteps * index + 0.5f), 0.0f,
+                                                   static_cast<float>(kPriorSteps * range_.disparities - 1)));
+      }
+  });
+}
+
 void MatchingCostRows::row(int y, std::uint8_t* cost) const {
   const StripedRow right{striped_.data() + y * row_stride_, phase_stride_, plane_stride_};
   if (kind_ == Kind::kTable) {
@@ -130,7 +163,7 @@ void CostRowReader::start(const MatchingCostRows& cost) {
     raw.y = -1;
     raw.cost.resize(bytes);
   }
-  averaged_.resize(bytes);
+  adjusted_.resize(bytes);
 }
 
 const std::uint8_t* CostRowReader::rawRow(int y) {
@@ -141,13 +174,20 @@ const std::uint8_t* CostRowReader::rawRow(int y) {
 }
 
 const std::uint8_t* CostRowReader::row(int y) {
-  const std::uint8_t* here = rawRow(y);
-  if (!cost_->supported_) return here;
-  const std::uint8_t* above = y > 0 ? rawRow(y - 1) : here;
-  const std::uint8_t* below = y + 1 < cost_->height_ ? rawRow(y + 1) : here;
-  cost_->kernels_->support(
-      {cost_->width_, cost_->range_.vectors, above, here, below, cost_->arms_.row(y), averaged_.data()});
-  return averaged_.data();
+  const int vectors = cost_->range_.vectors, width = cost_->width_;
+  const std::uint8_t* cost = rawRow(y);
+  if (cost_->supported_) {
+    const std::uint8_t* above = y > 0 ? rawRow(y - 1) : cost;
+    const std::uint8_t* below = y + 1 < cost_->height_ ? rawRow(y + 1) : cost;
+    cost_->kernels_->support({width, vectors, above, cost, below, cost_->arms_.row(y), adjusted_.data()});
+    cost = adjusted_.data();
+  }
+  if (cost_->has_prior_) {
+    cost_->kernels_->prior(
+        {width, vectors, cost_->prior_.row(y), cost_->ramps_.data(), cost, adjusted_.data()});
+    cost = adjusted_.data();
+  }
+  return cost;
 }
 
 }  // namespace pomona

@@ -44,6 +44,10 @@ class MatchingCostRows {
   /// Call after one of the above.
   void prepareSupport(const ColorSteps& steps, int color_step, int threads);
 
+  /// Afterwards CostRowReader adds weight * min(|d - map|, reach_px); a NaN adds nothing. Call after one of
+  /// the above.
+  void preparePrior(ImageView<const float> map, int weight, int reach_px, int threads);
+
   int width() const { return width_; }
   int height() const { return height_; }
   const DisparityRange& range() const { return range_; }
@@ -69,6 +73,9 @@ class MatchingCostRows {
   std::ptrdiff_t phase_stride_ = 0, plane_stride_ = 0, row_stride_ = 0;
   bool supported_ = false;
   Image<std::uint8_t> arms_;  // see SupportRow
+  bool has_prior_ = false;
+  Image<std::uint16_t> prior_;  // see PriorRow
+  Buffer<std::uint8_t> ramps_;
 };
 
 /// Walks the cost rows for one sweep; keeps what neighbouring rows share.
@@ -88,7 +95,7 @@ class CostRowReader {
     int y = -1;
     Buffer<std::uint8_t> cost;
   } raw_[3];
-  Buffer<std::uint8_t> averaged_;
+  Buffer<std::uint8_t> adjusted_;
 };
 
 }  // namespace pomona

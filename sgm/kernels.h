@@ -18,6 +18,7 @@ namespace pomona {
 enum class Isa;  // core/cpu.h; kernels see no standard library
 
 constexpr int kMaxDisparities = 1024;
+constexpr std::uint16_t kNoIndex = 0xFFFF;
 constexpr int kMaxCensusPlanes = 8;
 constexpr int kBlendedPlanes = 6;  // of the right view: census, Sobel, gray
 
@@ -55,6 +56,15 @@ struct SupportRow {
       *below;                ///< cost rows; above and below may be anything where no pixel uses them
   const std::uint8_t* arms;  ///< per pixel: bit 0 left, 1 right, 2 above, 3 below belongs
   std::uint8_t* cost;
+};
+
+/// Adds to every cost the ramp of its pixel.
+struct PriorRow {
+  int width, vectors;
+  const std::uint16_t* index;  ///< ramp of each pixel, or kNoIndex
+  const std::uint8_t* ramps;   ///< each vectors * kBytes bytes in striped order
+  const std::uint8_t* in;
+  std::uint8_t* out;  ///< may be `in`
 };
 
 struct TableCostRow {
@@ -102,7 +112,6 @@ struct WinnerRow {
   std::uint16_t* recent;       ///< scratch: the sums of the last recent_mask + 1 pixels
   int recent_mask;             ///< a power of two less one; at least disparities + 2 pixels
 };
-constexpr std::uint16_t kNoIndex = 0xFFFF;
 
 /// Sub-pixel disparities from what winner-take-all left of one row of one view.
 struct RefineRow {
@@ -128,6 +137,7 @@ struct SgmKernels {
   void (*tableCost)(const TableCostRow&);
   void (*blendedCost)(const BlendedCostRow&);
   void (*support)(const SupportRow&);
+  void (*prior)(const PriorRow&);
   /// Left to right; leaves the partial sums of its paths.
   void (*aggregateFirst)(const AggregateRow&);
   /// One per SubpixelMethod, in its order.

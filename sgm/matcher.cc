@@ -70,6 +70,8 @@ void SgmMatcher::match(const MatchInput& pair, const MatchOptions& options,
   const bool adapts = options.aggregation.adaptation != PenaltyAdaptation::kConstant;
   if (adapts || options.cost.support_color_step > 0) steps_.compute(pair.guide, kernels, threads);
   cost_.prepareSupport(steps_, options.cost.support_color_step, threads);
+  if (!pair.prior.empty())
+    cost_.preparePrior(pair.prior, options.prior_weight, options.prior_reach_px, threads);
   aggregator_.run(cost_, steps_, options.aggregation, kernels, winners_, threads);
 
   out.resize(width, height);

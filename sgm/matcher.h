@@ -21,6 +21,8 @@ struct MatchInput {
   ImageView<const std::uint16_t> left16, right16;
   GuideView guide;  ///< the left view with its colours: steers penalties and supports
 
+  ImageView<const float> prior = {};  ///< empty, or disparities to be drawn to
+
   bool isDeep() const { return !left16.empty(); }
 };
 
@@ -30,6 +32,8 @@ struct MatchOptions {
   CostOptions cost;
   AggregationOptions aggregation;
   WinnerOptions winner;
+  int prior_weight = 0,
+      prior_reach_px = 0;  ///< see MatchingCostRows::preparePrior; used with MatchInput::prior
 };
 
 /// Unvalidated disparities, pixels, of the image's size.

@@ -61,12 +61,12 @@ TEST(StateColors, AreDistinctForEveryState) {
   cv::Mat states(1, 256, CV_8U);
   for (int i = 0; i < 256; ++i) states.at<std::uint8_t>(i) = static_cast<std::uint8_t>(i);
   const cv::Mat image = colorizeStates(states);
-  for (const int state : {0, 1, 2, 3, 16, 17, 18, 19, 20, 21}) {
+  for (const int state : {0, 1, 2, 3, 4, 16, 17, 18, 19, 20, 21}) {
     const auto c = image.at<cv::Vec3b>(0, state);
     EXPECT_TRUE(seen.emplace(c[0], c[1], c[2]).second) << state;
     EXPECT_EQ(c, stateColor(static_cast<PixelState>(state)));
   }
-  for (const int other : {4, 15, 22, 255}) EXPECT_EQ(image.at<cv::Vec3b>(0, other), kWhite) << other;
+  for (const int other : {5, 15, 22, 255}) EXPECT_EQ(image.at<cv::Vec3b>(0, other), kWhite) << other;
 }
 
 TEST(ConfidenceGray, SpansTheBytes) {

@@ -91,6 +91,25 @@ inline Map<float> randomDisparity(int width, int height, double unknown_share, s
   return map;
 }
 
+/// A guide with edges and noise; rows are a few bytes apart, and those bytes are not zero.
+struct Guide {
+  std::vector<std::uint8_t> bytes;
+  GuideView view;
+
+  Guide(int width, int height, int channels, std::uint32_t seed) {
+    const int stride = width * channels + 5;
+    bytes.assign(static_cast<std::size_t>(stride) * height, 170);
+    std::mt19937 random(seed);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        for (int c = 0; c < channels; ++c) {
+          const int level = ((x / 9 + y / 5) % 3) * 70 + 20 * c + static_cast<int>(random() % 40);
+          bytes[static_cast<std::size_t>(y) * stride + x * channels + c] = static_cast<std::uint8_t>(level);
+        }
+    view = {bytes.data(), width, height, channels, stride};
+  }
+};
+
 inline Map<std::uint8_t> stateOf(const Map<float>& disparity) {
   Map<std::uint8_t> state(disparity.width, disparity.height,
                           static_cast<std::uint8_t>(PixelState::kMeasured));

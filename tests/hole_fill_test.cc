@@ -85,8 +85,9 @@ Scene randomScene(const Case& c, unsigned seed) {
     }
   for (int i = 0; i < c.width * c.height / 40; ++i) {  // filled before by somebody else
     const int y = static_cast<int>(random() % c.height), x = static_cast<int>(random() % c.width);
-    s.disparity.at(y, x) = 500;
-    s.state.at(y, x) = value(PixelState::kFilledInterpolated);
+    const bool source = i % 2 == 0;
+    s.disparity.at(y, x) = source ? disparity() : 500;
+    s.state.at(y, x) = value(source ? PixelState::kFilledPlane : PixelState::kFilledInterpolated);
   }
   return s;
 }

@@ -12,31 +12,13 @@ namespace pomona {
 namespace {
 
 using testing::Framed;
+using testing::Guide;
 using testing::kUnknown;
 using testing::Map;
 using testing::sameBits;
 
 // Weights are good to 1e-5 and a float rounds to 6e-8: the mean of values up to `range` apart is as good.
 constexpr double kTolerance = 1e-5;
-
-/// A guide with edges and noise; rows are a few bytes apart, and those bytes are not zero.
-struct Guide {
-  std::vector<std::uint8_t> bytes;
-  GuideView view;
-
-  Guide(int width, int height, int channels, std::uint32_t seed) {
-    const int stride = width * channels + 5;
-    bytes.assign(static_cast<std::size_t>(stride) * height, 170);
-    std::mt19937 random(seed);
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x)
-        for (int c = 0; c < channels; ++c) {
-          const int level = ((x / 9 + y / 5) % 3) * 70 + 20 * c + static_cast<int>(random() % 40);
-          bytes[static_cast<std::size_t>(y) * stride + x * channels + c] = static_cast<std::uint8_t>(level);
-        }
-    view = {bytes.data(), width, height, channels, stride};
-  }
-};
 
 Map<float> twin(const Map<float>& in, GuideView guide, const BilateralParameters& p, BilateralTarget target) {
   return reference::jointBilateral(in, guide, p.sigma_space_px, p.sigma_range,

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -262,6 +264,51 @@ TEST(Sgm, TableCostEqualsTextbook) {
     WinnerMaps winners;
     aggregator.run(cost, steps, o, kernels, winners, 2);
     expectEqual(winners, want, "table cost, isa " + std::string(name(isa)));
+  }
+}
+
+TEST(Sgm, PriorAddsItsRampToTheCost) {
+  const int width = 70, height = 12, disparities = 66, from = -2, weight = 3, reach = 4;
+  const TestPair<std::uint8_t> pair = makePair<std::uint8_t>(width, height, Content::kShifted);
+  const Image<std::uint8_t> guide = makeGuide(width, height);
+  Image<float> map(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const std::uint32_t h = hash(static_cast<std::uint32_t>(y * 100 + x));
+      map.row(y)[x] = h % 5 == 0 ? std::nanf("") : static_cast<float>(h % 300) / 4 - 4;
+    }
+  const auto codes = reference::census<std::uint8_t>(pair.left.view(), MatchingCost::kCensus5x5);
+  const auto right_codes = reference::census<std::uint8_t>(pair.right.view(), MatchingCost::kCensus5x5);
+  const reference::Match want = reference::match(
+      {width, height, disparities, from, 8, kSoft.p1,
+       [&](int y, int x, int d) {
+         const int column = std::clamp(x - from - d, 0, width - 1);
+         const int census = std::popcount(codes[y * width + x] ^ right_codes[y * width + column]);
+         if (std::isnan(map.row(y)[x])) return census;
+         const double drawn_to =
+             std::clamp(map.row(y)[x] - static_cast<double>(from), 0.0, disparities - 0.25);
+         return census +
+                static_cast<int>(std::floor(weight * std::min(std::abs(d - drawn_to), 1.0 * reach) + 0.5));
+       },
+       [&](int y, int x, int y2, int x2) {
+         return reference::adaptedPenalty(kSoft, reference::colorStep(colorView(guide), y, x, y2, x2));
+       }});
+  for (Isa isa : usableIsas()) {
+    const SgmKernels& kernels = sgmKernels(isa);
+    CensusTransform<std::uint8_t> transform;
+    CensusPlanes left, right;
+    transform.compute(pair.left.view(), MatchingCost::kCensus5x5, left, kernels, 2);
+    transform.compute(pair.right.view(), MatchingCost::kCensus5x5, right, kernels, 2);
+    ColorSteps steps;
+    steps.compute(colorView(guide), kernels, 2);
+    MatchingCostRows cost;
+    cost.prepareCensus({&left, {}, {}}, {&right, {}, {}}, 24, makeRange(from, disparities, kernels), kernels,
+                       2);
+    cost.preparePrior(map.view(), weight, reach, 2);
+    Aggregator aggregator;
+    WinnerMaps winners;
+    aggregator.run(cost, steps, kSoft, kernels, winners, 2);
+    expectEqual(winners, want, "prior, isa " + std::string(name(isa)));
   }
 }
 

@@ -1,14 +1,18 @@
 // All kernels of this folder, compiled for the instruction set of the including file.
 #include "core/simd/float.h"
 #include "filters/kernels.h"
+#include "filters/kernels/color.inl"
 #include "filters/kernels/exp2.inl"
 #include "filters/kernels/joint_bilateral.inl"
 #include "filters/kernels/median.inl"
+#include "filters/kernels/plane_refine.inl"
+#include "filters/kernels/weighted_median.inl"
 
 namespace pomona {
 namespace {
 
-constexpr FilterKernels kTable = {medianRow<3>, medianRow<5>, jointBilateralBlock};
+constexpr FilterKernels kTable = {medianRow<3>,  medianRow<5>,     jointBilateralBlock,
+                                  markNearJumps, weightedMedianAt, {refinePlanesRow<2>, refinePlanesRow<3>}};
 
 }  // namespace
 }  // namespace pomona

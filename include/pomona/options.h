@@ -65,26 +65,44 @@ struct ValidationOptions {
 };
 
 enum class CompletionMethod {
-  kFillHoles,  ///< measured pixels stay; holes filled from their surroundings, coarse maps as the last resort
-  kPaper,      ///< the seed paper: coarse maps only, bilateral on every pixel, equal-weight fusion
+  /// Holes filled from their surroundings, coarse maps as the last resort; then the whole map refined.
+  kFillHoles,
+  kPaper,  ///< the seed paper: coarse maps only, bilateral on every pixel, equal-weight fusion
 };
 
 struct CompletionOptions {
   CompletionMethod method = CompletionMethod::kFillHoles;
-  /// kFillHoles spreads measured disparities over holes, so it is stricter about which pixels count as
-  /// measured than a sparse map is: these two take the place of those in ValidationOptions.
+  /// kFillHoles spreads measured disparities over holes, so it may be stricter about which pixels count as
+  /// measured than a sparse map is: these two take the place of left_right_px and speckle_size_px.
   float seed_left_right_px = 0.7f;
   int seed_speckle_size_px = 100;
   /// kFillHoles: holes first take the plane that the measured pixels of their colour segment lie on.
   bool segment_planes = true;
-  int segment_scale = 4;  ///< segments are found in the image reduced so many times: 1, 2 or 4
+  int segment_scale =
+      4;  ///< segments are found in the image reduced so many times: 1, 2 or 4 (best and fastest)
   /// A hole is filled from measured pixels at most this far away (pixels along a search ray); farther away
   /// the coarse maps decide. At least 1.
   int search_radius_px = 200;
+  /// kFillHoles: move the jumps of the dense map to the edges of the left image, by a colour-weighted median
+  /// near jumps of more than 1 px, and a 5 x 5 median of the whole map. Measured pixels change, too.
+  bool weighted_median = true;
+  /// kFillHoles: replace each disparity by a plane through the neighbours of like disparity and colour.
+  bool plane_refinement = true;
+  int refine_radius_px = 2;  ///< of the window of that plane: 2 or 3
   float sigma_space_px =
       10.0f;                  ///< joint bilateral: spatial standard deviation, at the coarse scale (sigma_s)
   float sigma_range = 30.0f;  ///< joint bilateral: guide-image standard deviation, 8-bit units (sigma_r)
   int pyramid_levels = 6;     ///< Laplacian pyramid levels of the fusion, 1..16
+};
+
+/// A second match of the whole frame, drawn towards the completed map of the first.
+struct SecondPassOptions {
+  bool enabled = false;  ///< dense maps completed by kFillHoles only
+  /// The matching cost grows by weight * min(|d - d_first|, reach_px).
+  int weight = 1;    ///< 1..16
+  int reach_px = 4;  ///< 1..16; the largest cost + weight * reach_px + p1 + p2 must not exceed 255
+  CostOptions cost = {MatchingCost::kBlended, 0};
+  AggregationOptions aggregation = {8, 3, 24, 6, PenaltyAdaptation::kSoftIntensity};
 };
 
 enum class OutputMode {
@@ -102,6 +120,7 @@ struct Options {
   WinnerOptions winner;
   ValidationOptions validation;
   CompletionOptions completion;
+  SecondPassOptions second_pass;
 
   int threads = 0;  ///< worker threads; 0: one per available processor; at most 1024
   std::string

@@ -69,15 +69,12 @@ void gatherCandidates(const CandidateSources& sources, const std::int32_t* x, co
   }
 }
 
-void weightedQuantile(const float* disparity, const std::uint32_t* weight, const std::uint32_t* quarters,
-                      int n, float* __restrict out) {
+void candidateMedian(const float* disparity, const std::uint32_t* weight, int n, float* __restrict out) {
   std::uint32_t needed[kHoleBatch] = {}, sum[kHoleBatch];
   for (int k = 0; k < 16; ++k)
     for (int i = 0; i < n; ++i) needed[i] += weight[k * n + i];
   for (int i = 0; i < n; ++i) {
-    const std::uint32_t total = needed[i];
-    const std::uint32_t half = total / 2 + total % 2, quarter = total / 4 + (total % 4 != 0);
-    needed[i] = quarters[i] == 1 ? quarter : half;
+    needed[i] = needed[i] / 2 + needed[i] % 2;
     out[i] = __builtin_inff();
   }
   for (int k = 0; k < 16; ++k) {

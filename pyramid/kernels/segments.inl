@@ -1,4 +1,4 @@
-// Colour differences between rows of pixels, and points near a plane.
+// Colour differences between rows of pixels, what there is to fill and to fill from, points near a plane.
 
 namespace pomona {
 namespace {
@@ -18,6 +18,17 @@ void largestDifference3(const std::uint8_t* a, const std::uint8_t* b, int n, std
     const int d2 = absoluteDifference(a[3 * i + 2], b[3 * i + 2]);
     const int larger = d0 > d1 ? d0 : d1;
     out[i] = static_cast<std::uint8_t>(larger > d2 ? larger : d2);
+  }
+}
+
+void countSourcesAndHoles(const float* disparity, const std::uint8_t* state, std::uint8_t measured,
+                          std::uint8_t missing, std::uint8_t masked, int n, std::uint16_t* __restrict sums) {
+  for (int i = 0; i < n; ++i) {
+    const int known = disparity[i] == disparity[i];
+    const int is_measured = state[i] == measured;
+    const int is_missing = (state[i] >= missing) & (state[i] != masked);
+    const int is_hole = (is_measured & (known ^ 1)) | is_missing;
+    sums[i] = static_cast<std::uint16_t>(sums[i] + (is_measured & known) + 256 * is_hole);
   }
 }
 

@@ -25,10 +25,11 @@ constexpr PyramidKernels kTable = {
     .advanceRays = advanceRays,
     .difference1 = difference1,
     .largestDifference3 = largestDifference3,
+    .countSourcesAndHoles = countSourcesAndHoles,
     .countNearPlane = countNearPlane,
     .packColors = packColors,
     .gatherCandidates = gatherCandidates,
-    .weightedQuantile = weightedQuantile,
+    .candidateMedian = candidateMedian,
 };
 
 }  // namespace

@@ -8,6 +8,7 @@ namespace {
 
 using pomona::BlendedCostRow;
 using pomona::CensusCostRow;
+using pomona::PriorRow;
 using pomona::StripedRow;
 using pomona::SupportRow;
 using pomona::TableCostRow;
@@ -114,6 +115,18 @@ void censusCost(const CensusCostRow& r) {
         return censusCostOf<decltype(v)::value, 8>(r);
     }
   });
+}
+
+void prior(const PriorRow& r) {
+  const std::ptrdiff_t pixel = static_cast<std::ptrdiff_t>(r.vectors) * simd::kBytes;
+  for (std::ptrdiff_t x = 0; x < r.width; ++x) {
+    const bool drawn = r.index[x] != pomona::kNoIndex;
+    const std::uint8_t* ramp = r.ramps + (drawn ? r.index[x] : 0) * pixel;
+    for (std::ptrdiff_t k = 0; k < pixel; k += simd::kBytes) {
+      const simd::U8 cost = simd::load(r.in + x * pixel + k);
+      simd::store(r.out + x * pixel + k, drawn ? simd::add(cost, simd::load(ramp + k)) : cost);
+    }
+  }
 }
 
 /// Cost looked up from the pair of bytes (mutual information).

@@ -131,7 +131,9 @@ struct HoleFill {
     const std::vector<std::uint8_t> s = state;
     const auto is = [&](int i, PixelState p) { return s[i] == static_cast<std::uint8_t>(p); };
     const auto masked = [&](int i) { return is(i, PixelState::kMasked); };
-    const auto source = [&](int i) { return is(i, PixelState::kMeasured) && !std::isnan(d[i]); };
+    const auto source = [&](int i) {
+      return (is(i, PixelState::kMeasured) && !std::isnan(d[i])) || is(i, PixelState::kFilledPlane);
+    };
     const auto hole = [&](int i) {
       return (s[i] >= 16 && !masked(i)) || (is(i, PixelState::kMeasured) && std::isnan(d[i]));
     };
@@ -165,8 +167,7 @@ struct HoleFill {
             }
           }
         if (!possible.empty())
-          disparity[p] = quantile(
-              possible, filled(p) == static_cast<std::uint8_t>(PixelState::kFilledBackground) ? 1 : 2);
+          disparity[p] = median(possible);
         else if (!all.empty())
           disparity[p] = row.empty() ? *std::min_element(all.begin(), all.end())
                                      : *std::min_element(row.begin(), row.end());
@@ -208,12 +209,12 @@ struct HoleFill {
                                           integer(std::exp(-steps * std::sqrt(dx * dx + dy * dy) / 30.0)) /
                                           16);
   }
-  static float quantile(std::vector<std::pair<float, std::uint64_t>> c, std::uint64_t quarters) {
+  static float median(std::vector<std::pair<float, std::uint64_t>> c) {
     std::sort(c.begin(), c.end());
     std::uint64_t total = 0, sum = 0;
     for (const auto& [value, weight] : c) total += weight;
     for (const auto& [value, weight] : c)
-      if (4 * (sum += weight) >= quarters * total) return value;
+      if (2 * (sum += weight) >= total) return value;
     return c.back().first;
   }
 };

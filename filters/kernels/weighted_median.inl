@@ -1,0 +1,140 @@
+// Colour-weighted median at chosen pixels; every lane of a vector is one of them.
+#pragma once
+
+#if defined(__AVX2__)
+#include <immintrin.h>
+#endif
+
+namespace pomona {
+namespace {
+
+/// Elements that lie apart from each other in memory.
+inline Ints gather(const void* base, Ints index) {
+#if defined(__AVX512F__)
+  return reinterpret_cast<Ints>(_mm512_i32gather_epi32(reinterpret_cast<__m512i>(index), base, 4));
+#elif defined(__AVX2__)
+  return reinterpret_cast<Ints>(
+      _mm256_i32gather_epi32(static_cast<const int*>(base), reinterpret_cast<__m256i>(index), 4));
+#else
+  Ints v;
+  for (int i = 0; i < kFloatLanes; ++i) v[i] = static_cast<const std::int32_t*>(base)[index[i]];
+  return v;
+#endif
+}
+
+/// Maps the bits of a float to an integer of the same order, and back.
+inline Ints orderedBits(Ints bits) {
+  return bits ^ (bits >> 31 & 0x7FFFFFFF);
+}
+
+constexpr int kMedianGroup = 8;  ///< taps that are worked on side by side
+constexpr int kMedianSlots = (MedianWindow::kTaps + kMedianGroup - 1) / kMedianGroup * kMedianGroup;
+
+/// The window of each lane's pixel: ordered bits of the disparities, and their weights. Unknown disparities,
+/// and the slots after the last tap, repeat the centre's key with a weight of 0.
+struct WeightedTaps {
+  Ints key[kMedianSlots];
+  Floats weight[kMedianSlots];
+};
+
+/// kCount taps from the `first` one on.
+template <int kCount>
+inline void readTaps(const GuidedRow& row, const MedianWindow& window, int first, Ints columns, Ints centre,
+                     Ints centre_color, WeightedTaps& taps) {
+  Floats weight[kCount];
+  Ints known[kCount];
+#pragma GCC unroll 8
+  for (int i = 0; i < kCount; ++i) {
+    const std::int32_t offset = window.offset[first + i];
+    const Ints bits = gather(row.disparity + offset, columns);
+    const Ints difference =
+        sumOfChannels(absoluteDifference(gather(row.color + offset, columns), centre_color));
+    known[i] = ~isNan(floatsOf(bits));
+    taps.key[first + i] = orderedBits(known[i] ? bits : centre);
+    weight[i] =
+        window.log_weight[first + i] - __builtin_convertvector(difference, Floats) * window.color_scale;
+  }
+  exp2NonPositive(weight);
+#pragma GCC unroll 8
+  for (int i = 0; i < kCount; ++i) taps.weight[first + i] = floatsOf(bitsOf(weight[i]) & known[i]);
+}
+
+inline void readWindow(const GuidedRow& row, const MedianWindow& window, Ints columns, WeightedTaps& taps) {
+  constexpr int kTaps = MedianWindow::kTaps;
+  const Ints centre = gather(row.disparity, columns), centre_color = gather(row.color, columns);
+  int i = 0;
+  for (; i + kMedianGroup <= kTaps; i += kMedianGroup)
+    readTaps<kMedianGroup>(row, window, i, columns, centre, centre_color, taps);
+  readTaps<kTaps % kMedianGroup>(row, window, i, columns, centre, centre_color, taps);
+  for (i = kTaps; i < kMedianSlots; ++i) {
+    taps.key[i] = orderedBits(centre);
+    taps.weight[i] = Floats{};
+  }
+}
+
+/// The weights of all keys up to `bound`. Adding in one fixed order makes this sum, though rounded, a
+/// monotone function of `bound`.
+inline Floats weightUpTo(const WeightedTaps& taps, Ints bound) {
+  Floats sum[kMedianGroup] = {};
+  for (int first = 0; first < kMedianSlots; first += kMedianGroup)
+#pragma GCC unroll 8
+    for (int i = 0; i < kMedianGroup; ++i)
+      sum[i] += taps.key[first + i] <= bound ? taps.weight[first + i] : Floats{};
+  Floats total = sum[0];
+  for (int i = 1; i < kMedianGroup; ++i) total += sum[i];
+  return total;
+}
+
+/// The smallest `bits` such that 2^bits is above high - low in every lane; low <= high.
+inline int bitsToSearch(Ints low, Ints high) {
+  std::uint32_t all = 0;
+  for (int i = 0; i < kFloatLanes; ++i)
+    all |= static_cast<std::uint32_t>(high[i]) - static_cast<std::uint32_t>(low[i]);
+  return all == 0 ? 0 : 32 - __builtin_clz(all);
+}
+
+/// The smallest key up to which there is half of the weight, by bisection.
+inline Ints weightedMedianKey(const WeightedTaps& taps) {
+  Ints low = taps.key[0], high = low;
+  for (const Ints& key : taps.key) {
+    low = key < low ? key : low;
+    high = key > high ? key : high;
+  }
+  const Floats half = weightUpTo(taps, high) * 0.5f;
+  for (int bits = bitsToSearch(low, high); bits > 0; --bits) {
+    const Ints middle = (low & high) + ((low ^ high) >> 1);
+    const Ints enough = weightUpTo(taps, middle) >= half;
+    high = enough ? middle : high;
+    low = enough ? low : middle + 1;
+  }
+  return high;
+}
+
+void weightedMedianAt(const GuidedRow& row, const MedianWindow& window, const std::int32_t* columns,
+                      int count, float* out) {
+  for (int begin = 0; begin < count; begin += kFloatLanes) {
+    const int lanes = count - begin < kFloatLanes ? count - begin : kFloatLanes;
+    Ints x;
+    for (int i = 0; i < kFloatLanes; ++i) x[i] = columns[begin + (i < lanes ? i : 0)];
+    WeightedTaps taps;
+    readWindow(row, window, x, taps);
+    const Floats median = floatsOf(orderedBits(weightedMedianKey(taps)));
+    for (int i = 0; i < lanes; ++i) out[x[i]] = median[i];
+  }
+}
+
+void markNearJumps(const GuidedRow& row, int width, float threshold_px, std::uint8_t* near) {
+  const float* rows[3] = {row.disparity - row.stride, row.disparity, row.disparity + row.stride};
+  for (int x = 0; x < width; ++x) {
+    float low = rows[1][x], high = low;
+    for (const float* d : rows)
+      for (int dx = -1; dx <= 1; ++dx) {
+        low = d[x + dx] < low ? d[x + dx] : low;
+        high = d[x + dx] > high ? d[x + dx] : high;
+      }
+    near[x] = (high - rows[1][x] > threshold_px) | (rows[1][x] - low > threshold_px);
+  }
+}
+
+}  // namespace
+}  // namespace pomona

@@ -1,0 +1,65 @@
+#include "filters/weighted_median.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/parallel.h"
+
+namespace pomona {
+namespace {
+
+constexpr float kJump_px = 1.0f;
+constexpr double kDistanceScale_px = 9;
+constexpr double kColorScale = 8;
+constexpr int kSegment = 1024;  // columns of one kernel call at most
+
+MedianWindow makeWindow(std::ptrdiff_t stride) {
+  constexpr int kRadius = MedianWindow::kRadius;
+  MedianWindow window;
+  int tap = 0;
+  for (int dy = -kRadius; dy <= kRadius; ++dy)
+    for (int dx = -kRadius; dx <= kRadius; ++dx) {
+      if ((dx + dy) % 2 != 0) continue;
+      const double distance = std::sqrt(dx * dx + dy * dy);
+      window.offset[tap] = static_cast<std::int32_t>(dy * stride + dx);
+      window.log_weight[tap++] = static_cast<float>(-distance * std::numbers::log2e / kDistanceScale_px);
+    }
+  window.color_scale = static_cast<float>(std::numbers::log2e / (3 * kColorScale));
+  return window;
+}
+
+/// Columns in [begin, end) that are near a jump; returns how many.
+int chosenColumns(const std::uint8_t* near_jump, int begin, int end, std::int32_t* columns) {
+  int count = 0;
+  for (int x = begin; x < end; ++x) {
+    columns[count] = x;
+    count += near_jump[x];
+  }
+  return count;
+}
+
+}  // namespace
+
+void weightedMedian(ImageView<const float> in, GuideView guide, ImageView<float> out,
+                    WeightedMedianScratch& scratch, const FilterKernels& kernels, int threads) {
+  const int width = in.width;
+  scratch.plane.set(in, guide, MedianWindow::kRadius, threads);
+  const MedianWindow window = makeWindow(scratch.plane.row(0).stride);
+  scratch.near_jump.resize(width, in.height);
+  parallelStrips(threads, in.height, 4, [&](int y_begin, int y_end) {
+    for (int y = y_begin; y < y_end; ++y) {
+      const GuidedRow row = scratch.plane.row(y);
+      std::uint8_t* near_jump = scratch.near_jump.row(y);
+      std::copy_n(row.disparity, width, out.row(y));
+      kernels.nearJumps(row, width, kJump_px, near_jump);
+      std::int32_t columns[kSegment];
+      for (int x = 0; x < width; x += kSegment) {
+        const int count = chosenColumns(near_jump, x, std::min(width, x + kSegment), columns);
+        kernels.weightedMedian(row, window, columns, count, out.row(y));
+      }
+    }
+  });
+}
+
+}  // namespace pomona

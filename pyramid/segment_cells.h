@@ -1,0 +1,68 @@
+// The full image's pixels by colour segment of a reduced one.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/image.h"
+#include "pyramid/kernels.h"
+
+namespace pomona {
+
+/// The image in blocks, one cell for each pixel of the reduced image: pixel x belongs to column
+/// floor(x columns / width), and rows likewise. Cells know how many sources and holes (see holes.h) they
+/// hold, and can be listed by segment. Memory is kept from frame to frame.
+class SegmentCells {
+ public:
+  struct Cell {
+    std::uint16_t x, y;
+  };
+  struct Pixel {
+    int x, y;
+  };
+
+  /// A cell has at most 16 pixels; there are at most 65535 columns and rows.
+  void count(ImageView<const float> disparity, ImageView<const std::uint8_t> state, int columns, int rows,
+             const PyramidKernels& kernels, int threads);
+  /// Lists the cells by label; `labels` holds values below `segments`, row by row.
+  void group(const Buffer<std::int32_t>& labels, int segments);
+
+  std::span<const Cell> segment(int i) const {
+    return {cells_.data() + segment_begin_[i], cells_.data() + segment_begin_[i + 1]};
+  }
+  int sources(Cell c) const { return sources_[index(c)]; }
+  int holes(Cell c) const { return holes_[index(c)]; }
+  void setHoles(Cell c, int holes) { holes_[index(c)] = static_cast<std::uint8_t>(holes); }
+  Pixel firstPixel(Cell c) const { return {column_begin_[c.x], row_begin_[c.y]}; }
+
+  /// The first pixel, row by row, for which is_wanted(pixel); there must be one.
+  template <typename F>
+  Pixel findPixel(Cell c, F is_wanted) const {
+    Pixel p = firstPixel(c);
+    while (!is_wanted(p))
+      if (++p.x == column_begin_[c.x + 1]) p = {column_begin_[c.x], p.y + 1};
+    return p;
+  }
+  template <typename F>
+  void forEachPixel(Cell c, F visit) const {
+    const int *x_range = column_begin_.data() + c.x, *y_range = row_begin_.data() + c.y;
+    for (int y = y_range[0]; y < y_range[1]; ++y)
+      for (int x = x_range[0]; x < x_range[1]; ++x) visit(Pixel{x, y});
+  }
+
+ private:
+  std::size_t index(Cell c) const {
+    return static_cast<std::size_t>(c.y) * static_cast<std::size_t>(columns_) + c.x;
+  }
+  void countRow(int row, ImageView<const float> disparity, ImageView<const std::uint8_t> state,
+                const PyramidKernels& kernels);
+
+  int columns_ = 0, rows_ = 0;
+  Buffer<int> column_begin_, row_begin_;  // the first pixel of each, and of what would follow
+  Buffer<std::uint8_t> sources_, holes_;  // in each cell
+  Image<std::uint16_t> column_sums_;
+  Buffer<Cell> cells_;  // segment after segment
+  Buffer<int> segment_begin_;
+};
+
+}  // namespace pomona

@@ -1,0 +1,86 @@
+// After the first frame of a size, a frame allocates nothing: no malloc anywhere in the process.
+#include <gtest/gtest.h>
+#include <malloc.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+
+#include "datasets/named_scenes.h"
+#include "datasets/render.h"
+#include "pomona/engine.h"
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__GLIBC__)
+#define POMONA_CANNOT_COUNT  // these bring their own malloc
+#endif
+
+namespace {
+std::atomic<long> allocations{0};
+}
+
+#if !defined(POMONA_CANNOT_COUNT)
+extern "C" {
+void* __libc_malloc(std::size_t);
+void* __libc_calloc(std::size_t, std::size_t);
+void* __libc_realloc(void*, std::size_t);
+void* __libc_memalign(std::size_t, std::size_t);
+
+void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) {
+  ++allocations;
+  return __libc_calloc(count, size);
+}
+void* realloc(void* p, std::size_t size) {
+  ++allocations;
+  return __libc_realloc(p, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  ++allocations;
+  return __libc_memalign(alignment, size);
+}
+int posix_memalign(void** p, std::size_t alignment, std::size_t size) {
+  ++allocations;
+  *p = __libc_memalign(alignment, size);
+  return *p ? 0 : ENOMEM;
+}
+}
+#endif
+
+namespace pomona {
+namespace {
+
+TEST(Engine, FramesAfterTheFirstAllocateNothing) {
+#if defined(POMONA_CANNOT_COUNT)
+  GTEST_SKIP() << "allocations cannot be counted in this build";
+#endif
+  const RenderedPair first = render(namedScene("boxes", 1, 160, 100, 30));
+  const RenderedPair other = render(namedScene("orchard", 2, 160, 100, 30));
+  for (const char* preset : {"fast", "balanced", "quality", "paper"})
+    for (OutputMode mode : {OutputMode::kSparse, OutputMode::kDense})
+      for (int threads : {1, 3}) {
+        Options o = Options::preset(preset);
+        o.num_disparities = 36;
+        o.mode = mode;
+        o.threads = threads;
+        StereoEngine engine(o);
+        // A coarse map is made for a frame that needs one: the warm-up has to meet both kinds of frame.
+        engine.compute(first.left.image, first.right.image);
+        engine.compute(other.left.image, other.right.image);
+        const long before = allocations;
+        for (int frame = 0; frame < 10; ++frame) {
+          const RenderedPair& pair = frame % 2 ? first : other;
+          engine.compute(pair.left.image, pair.right.image);
+        }
+        EXPECT_EQ(allocations - before, 0)
+            << preset << " mode " << static_cast<int>(mode) << " threads " << threads;
+      }
+  const long before = allocations;
+  std::free(std::malloc(10));
+  EXPECT_GT(allocations - before, 0) << "the counter does not count";
+}
+
+}  // namespace
+}  // namespace pomona
