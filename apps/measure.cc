@@ -1,7 +1,6 @@
 #include "apps/measure.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "pomona/engine.h"
 
@@ -34,11 +33,7 @@ int disparitiesToSearch(const SceneFiles& files, const Scene& scene) {
   constexpr int kMostDisparities = 1024;
   const int most = std::min(kMostDisparities, scene.left.cols);
   if (files.num_disparities > 0) return std::min(files.num_disparities, most);
-  float largest = -1;
-  for (int y = 0; y < scene.ground_truth.rows; ++y)
-    for (int x = 0; x < scene.ground_truth.cols; ++x)
-      largest = std::fmax(largest, scene.ground_truth.at<float>(y, x));  // fmax passes over NaN
-  if (largest >= 0) return std::min((static_cast<int>(std::ceil(largest)) + 4 + 15) / 16 * 16, most);
+  if (const int count = disparitiesToReach(scene.ground_truth); count > 0) return std::min(count, most);
   const int ndisp = scene.calibration ? scene.calibration->stereo.num_disparities : 0;
   return ndisp > 0 ? std::min(ndisp, most) : estimateNumDisparities(scene.left, scene.right);
 }

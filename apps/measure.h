@@ -29,10 +29,9 @@ struct Measurement {
   std::optional<KittiErrors> kitti;  ///< KITTI's scenes only
 };
 
-/// How many disparities, from 0 up, every method is to search: the data set's own bound if it states one for
-/// the scene (a manifest's max_disparity); else the largest true disparity plus 4, rounded up to a multiple
-/// of 16, so that all methods get the same and none has to guess; without truth ndisp of the calibration; and
-/// without that an estimate. At most the width, and 1024.
+/// How many disparities, from 0 up, every method is to search, so that none has to guess: the data set's own
+/// bound if it states one for the scene (a manifest's max_disparity); else disparitiesToReach() the truth;
+/// without truth ndisp of the calibration; and without that an estimate. At most the width, and 1024.
 int disparitiesToSearch(const SceneFiles& files, const Scene& scene);
 
 /// Scores `result` by the rules of the scene's benchmark: for Middlebury, known disparities are clipped to

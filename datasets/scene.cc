@@ -95,6 +95,17 @@ Scene readScene(const SceneFiles& files) {
   return scene;
 }
 
+int disparitiesToReach(const cv::Mat& ground_truth) {
+  constexpr int kMargin = 4, kMultiple = 16;
+  float largest = -1;
+  for (int y = 0; y < ground_truth.rows; ++y)
+    for (int x = 0; x < ground_truth.cols; ++x)
+      largest = std::fmax(largest, ground_truth.at<float>(y, x));  // fmax passes over NaN
+  if (largest < 0) return 0;
+  const int needed = static_cast<int>(std::ceil(largest)) + kMargin;
+  return std::min((needed + kMultiple - 1) / kMultiple * kMultiple, ground_truth.cols);
+}
+
 SceneFiles middleburyFiles(const std::string& folder) {
   const fs::path path = fs::absolute(folder).lexically_normal() / "";
   const auto pathOf = [&](const char* leaf) { return (fs::path(folder) / leaf).string(); };

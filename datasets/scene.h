@@ -47,6 +47,10 @@ struct Scene {
 /// view1/view5 (2005 and 2006; full size is about 1300 wide). Throws std::runtime_error naming the file.
 Scene readScene(const SceneFiles& files);
 
+/// How many disparities, from 0 up, a fair comparison searches where the truth (CV_32F, NaN unknown) is
+/// known: to the largest one plus 4, rounded up to a multiple of 16, at most the width. 0 if none is known.
+int disparitiesToReach(const cv::Mat& ground_truth);
+
 /// The scene of layout kMiddlebury3 in `folder`; truth, mask and calibration are parts only if there.
 SceneFiles middleburyFiles(const std::string& folder);
 
