@@ -1,14 +1,12 @@
 #include "apps/compute_files.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <initializer_list>
-#include <opencv2/imgproc.hpp>
 #include <stdexcept>
 
+#include "apps/muted_stream.h"
+#include "apps/views.h"
 #include "camera/ply.h"
 #include "datasets/colorize.h"
 #include "datasets/disparity_file.h"
@@ -35,14 +33,6 @@ struct OutputKind {
   std::vector<std::string> extensions;
   std::string (*encode)(const Frame& frame, const std::string& extension);
 };
-
-cv::Mat toBgr8(const cv::Mat& image) {
-  cv::Mat bytes, bgr;
-  image.convertTo(bytes, CV_8U, image.depth() == CV_16U ? 1 / 257.0 : 1);
-  if (bytes.channels() == 3) return bytes;
-  cv::cvtColor(bytes, bgr, cv::COLOR_GRAY2BGR);
-  return bgr;
-}
 
 std::string encodeDisparity(const Frame& frame, const std::string& extension) {
   if (extension == ".pfm") return encodePfm(frame.result.disparity);
@@ -104,24 +94,6 @@ void requireExtension(const OutputKind& kind, const std::string& path) {
   for (const std::string& e : kind.extensions) allowed += (allowed.empty() ? "" : ", ") + e;
   throw std::runtime_error(std::string(kind.option) + " is '" + path + "'; allowed extensions: " + allowed);
 }
-
-// libpng and libjpeg write their complaints straight to the error stream, where only our own line belongs.
-class MutedErrorStream {
- public:
-  MutedErrorStream() : saved_(::dup(STDERR_FILENO)), nothing_(::open("/dev/null", O_WRONLY | O_CLOEXEC)) {
-    if (saved_ >= 0 && nothing_ >= 0) ::dup2(nothing_, STDERR_FILENO);
-  }
-  ~MutedErrorStream() {
-    if (saved_ >= 0 && nothing_ >= 0) ::dup2(saved_, STDERR_FILENO);
-    if (saved_ >= 0) ::close(saved_);
-    if (nothing_ >= 0) ::close(nothing_);
-  }
-  MutedErrorStream(const MutedErrorStream&) = delete;
-  MutedErrorStream& operator=(const MutedErrorStream&) = delete;
-
- private:
-  int saved_, nothing_;
-};
 
 cv::Mat readView(const std::string& path) {
   cv::Mat image = readImage(path);

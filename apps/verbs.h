@@ -8,7 +8,9 @@ class App;
 
 namespace pomona {
 
+void addCompare(CLI::App& app);
 void addCompute(CLI::App& app);
+void addEval(CLI::App& app);
 void addInfo(CLI::App& app);
 void addRender(CLI::App& app);
 

@@ -1,13 +1,20 @@
 #include "datasets/scene.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <stdexcept>
+#include <string_view>
 
 #include "datasets/disparity_file.h"
 #include "datasets/image_file.h"
 
 namespace pomona {
 namespace {
+
+namespace fs = std::filesystem;
 
 std::string shown(cv::Size size) {
   return std::to_string(size.width) + "x" + std::to_string(size.height);
@@ -18,34 +25,107 @@ void requireSize(const std::string& path, const cv::Mat& image, cv::Size size) {
     throw std::runtime_error(path + ": is " + shown(image.size()) + "; the left image is " + shown(size));
 }
 
+cv::Mat readByteMap(const std::string& path, cv::Size size) {
+  const cv::Mat map = readImage(path);
+  requireSize(path, map, size);
+  if (map.type() != CV_8UC1)
+    throw std::runtime_error(path + ": has " + describeType(map) + "; allowed: 1 channel of 8 bits");
+  return map;
+}
+
+std::string lowerCase(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+// Steps per pixel of an 8-bit truth. The files do not say; see readScene() in the header.
+int stepsPerPixel(const SceneFiles& files, int width) {
+  constexpr std::array<std::string_view, 7> kPlanar = {"barn1",  "barn2",    "bull", "map",
+                                                       "poster", "sawtooth", "venus"};
+  constexpr double kWidth2003 = 1800, kWidth2005 = 1300;
+  const std::string scene = lowerCase(fs::path(files.left).parent_path().filename().string());
+  if (scene == "tsukuba") return 16;
+  if (std::find(kPlanar.begin(), kPlanar.end(), scene) != kPlanar.end()) return 8;
+  const bool views = fs::path(files.left).stem() == "view1";
+  const double reduction = (views ? kWidth2005 : kWidth2003) / width;
+  return std::clamp(static_cast<int>(std::lround(reduction)), 1, views ? 3 : 4);
+}
+
+cv::Mat readTruth(const SceneFiles& files, cv::Size size) {
+  cv::Mat truth;
+  if (files.layout != SceneLayout::kMiddlebury2) {
+    truth = readDisparity(files.ground_truth);
+    requireSize(files.ground_truth, truth, size);
+    return truth;
+  }
+  const cv::Mat steps = readByteMap(files.ground_truth, size);
+  steps.convertTo(truth, CV_32F, 1.0 / stepsPerPixel(files, size.width));
+  truth.setTo(std::numeric_limits<float>::quiet_NaN(), steps == 0);
+  return truth;
+}
+
+cv::Mat readNonoccluded(const SceneFiles& files, const Scene& scene) {
+  if (files.layout != SceneLayout::kKitti2012 && files.layout != SceneLayout::kKitti2015)
+    return readByteMap(files.nonoccluded, scene.left.size());
+  const cv::Mat seen_by_both = readDisparity(files.nonoccluded);
+  requireSize(files.nonoccluded, seen_by_both, scene.left.size());
+  cv::Mat mask(scene.left.size(), CV_8U, cv::Scalar(0));
+  if (!scene.ground_truth.empty())
+    mask.setTo(128, scene.ground_truth == scene.ground_truth);  // false for NaN
+  mask.setTo(255, seen_by_both == seen_by_both);
+  return mask;
+}
+
 }  // namespace
 
-Scene readScene(const std::string& folder) {
-  const auto pathOf = [&](const char* leaf) { return (std::filesystem::path(folder) / leaf).string(); };
-  const auto present = [](const std::string& path) { return std::filesystem::exists(path); };
-
+Scene readScene(const SceneFiles& files) {
+  if (!files.problem.empty()) throw std::runtime_error(files.problem);
   Scene scene;
-  scene.left = readImage(pathOf("im0.png"));
-  const std::string right = pathOf("im1.png");
-  scene.right = readImage(right);
-  requireSize(right, scene.right, scene.left.size());
+  scene.left = readImage(files.left);
+  scene.right = readImage(files.right);
+  requireSize(files.right, scene.right, scene.left.size());
   if (scene.right.type() != scene.left.type())
-    throw std::runtime_error(right + ": has " + describeType(scene.right) + "; the left image has " +
+    throw std::runtime_error(files.right + ": has " + describeType(scene.right) + "; the left image has " +
                              describeType(scene.left));
-  if (const std::string path = pathOf("disp0GT.pfm"); present(path)) {
-    scene.ground_truth = readDisparity(path);
-    requireSize(path, scene.ground_truth, scene.left.size());
-  }
-  if (const std::string path = pathOf("mask0nocc.png"); present(path)) {
-    scene.nonoccluded = readImage(path);
-    requireSize(path, scene.nonoccluded, scene.left.size());
-    if (scene.nonoccluded.type() != CV_8UC1)
-      throw std::runtime_error(path + ": has " + describeType(scene.nonoccluded) +
-                               "; allowed: 1 channel of 8 bits");
-  }
-  if (const std::string path = pathOf("calib.txt"); present(path))
-    scene.calibration = readMiddleburyCalibration(path);
+  if (!files.ground_truth.empty()) scene.ground_truth = readTruth(files, scene.left.size());
+  if (!files.nonoccluded.empty()) scene.nonoccluded = readNonoccluded(files, scene);
+  if (!files.objects.empty()) scene.objects = readByteMap(files.objects, scene.left.size());
+  if (!files.calibration.empty()) scene.calibration = readMiddleburyCalibration(files.calibration);
   return scene;
+}
+
+int disparitiesToReach(const cv::Mat& ground_truth) {
+  constexpr int kMargin = 4, kMultiple = 16;
+  float largest = -1;
+  for (int y = 0; y < ground_truth.rows; ++y)
+    for (int x = 0; x < ground_truth.cols; ++x)
+      largest = std::fmax(largest, ground_truth.at<float>(y, x));  // fmax passes over NaN
+  if (largest < 0) return 0;
+  const int needed = static_cast<int>(std::ceil(largest)) + kMargin;
+  return std::min((needed + kMultiple - 1) / kMultiple * kMultiple, ground_truth.cols);
+}
+
+SceneFiles middleburyFiles(const std::string& folder) {
+  const fs::path path = fs::absolute(folder).lexically_normal() / "";
+  const auto pathOf = [&](const char* leaf) { return (fs::path(folder) / leaf).string(); };
+  const auto ifThere = [&](const char* leaf) {
+    return fs::exists(pathOf(leaf)) ? pathOf(leaf) : std::string();
+  };
+  SceneFiles files;
+  files.name = path.parent_path().filename().string();
+  files.split = path.parent_path().parent_path().filename().string();
+  files.left = pathOf("im0.png");
+  files.right = pathOf("im1.png");
+  files.ground_truth = ifThere("disp0GT.pfm");
+  if (files.ground_truth.empty()) files.ground_truth = ifThere("disp0.pfm");  // its name in the 2014 sets
+  files.nonoccluded = ifThere("mask0nocc.png");
+  files.calibration = ifThere("calib.txt");
+  return files;
+}
+
+Scene readScene(const std::string& folder) {
+  return readScene(middleburyFiles(folder));
 }
 
 }  // namespace pomona

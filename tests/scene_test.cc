@@ -63,6 +63,21 @@ TEST_F(SceneFolder, RefusesWhatDoesNotFitTogether) {
   expectContains(reading(), "im1.png: cannot be read");
 }
 
+TEST(DisparitiesToReach, IsTheLargestPlusFourInSixteens) {
+  cv::Mat truth(2, 100, CV_32F, cv::Scalar(3));
+  EXPECT_EQ(disparitiesToReach(truth), 16);
+  truth.at<float>(1, 7) = 12;
+  EXPECT_EQ(disparitiesToReach(truth), 16);
+  truth.at<float>(1, 7) = 12.01f;
+  truth.at<float>(0, 0) = NAN;
+  EXPECT_EQ(disparitiesToReach(truth), 32);
+  truth.at<float>(1, 7) = 98;
+  EXPECT_EQ(disparitiesToReach(truth), 100);
+  truth.setTo(NAN);
+  EXPECT_EQ(disparitiesToReach(truth), 0);
+  EXPECT_EQ(disparitiesToReach({}), 0);
+}
+
 // The real thing, where it is at hand.
 TEST(Middlebury, EverySceneReads) {
   const char* root = std::getenv("POMONA_DATASETS");

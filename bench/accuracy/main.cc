@@ -1,7 +1,5 @@
 // Runs all methods on scenes with known truth, and tabulates how wrong they are.
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -13,7 +11,7 @@
 #include "bench/accuracy/guard.h"
 #include "bench/accuracy/methods.h"
 #include "bench/accuracy/report.h"
-#include "datasets/scene.h"
+#include "datasets/walk.h"
 
 namespace pomona {
 namespace {
@@ -25,26 +23,6 @@ struct Arguments {
   std::string markdown, json, accepted;
   std::vector<std::string> methods;
 };
-
-// Folders with a pair and its truth, at any depth below `root`, by name.
-std::vector<std::filesystem::path> findScenes(const std::string& root) {
-  std::vector<std::filesystem::path> scenes;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(root))
-    if (entry.path().filename() == "disp0GT.pfm" && exists(entry.path().parent_path() / "im0.png"))
-      scenes.push_back(entry.path().parent_path());
-  std::sort(scenes.begin(), scenes.end());
-  return scenes;
-}
-
-// The same range for everybody, taken from the truth: what is compared is the matching, not the guessing.
-int disparitiesNeeded(const cv::Mat& truth) {
-  float largest = 0;
-  for (int y = 0; y < truth.rows; ++y)
-    for (int x = 0; x < truth.cols; ++x)
-      if (const float d = truth.at<float>(y, x); std::isfinite(d)) largest = std::max(largest, d);
-  const int needed = static_cast<int>(std::ceil(largest)) + 4;
-  return std::min((needed + 15) / 16 * 16, truth.cols);
-}
 
 SceneFigures measure(Method& method, const MethodOptions& options, const Scene& scene,
                      const std::string& name) {
@@ -62,17 +40,18 @@ std::vector<MethodFigures> measureAll(const std::vector<Contender>& contenders, 
     results.push_back({contender.name(), contender.kind, {}});
     methods.push_back(makeMethod(contender.method));
   }
-  for (const std::filesystem::path& folder : findScenes(root)) {
-    const Scene scene = readScene(folder.string());
-    const std::string name = folder.filename().string();
-    std::fprintf(stderr, "%s\n", name.c_str());
+  for (const SceneFiles& files : findScenes({root})) {
+    const Scene scene = readScene(files);
+    // The same range for everybody: what is compared is the matching, not the guessing.
+    const int num_disparities = disparitiesToReach(scene.ground_truth);
+    if (num_disparities == 0) continue;
+    std::fprintf(stderr, "%s\n", files.name.c_str());
     for (std::size_t i = 0; i < contenders.size(); ++i) {
-      const MethodOptions options = contenders[i].options(disparitiesNeeded(scene.ground_truth));
-      results[i].scenes.push_back(measure(*methods[i], options, scene, name));
+      const MethodOptions options = contenders[i].options(num_disparities);
+      results[i].scenes.push_back(measure(*methods[i], options, scene, files.name));
     }
   }
-  if (results.front().scenes.empty())
-    throw std::runtime_error(root + ": no scene (im0.png, disp0GT.pfm) found");
+  if (results.front().scenes.empty()) throw std::runtime_error(root + ": no scene with known truth found");
   return results;
 }
 

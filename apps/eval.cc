@@ -1,0 +1,245 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <opencv2/core/utility.hpp>
+#include <stdexcept>
+#include <string>
+
+#include "apps/eval_record.h"
+#include "apps/measure.h"
+#include "apps/method_list.h"
+#include "apps/muted_stream.h"
+#include "apps/progress.h"
+#include "apps/report/report.h"
+#include "apps/verbs.h"
+#include "core/cpu.h"
+#include "core/parallel.h"
+#include "datasets/atomic_file.h"
+#include "datasets/input_file.h"
+#include "datasets/submission.h"
+#include "datasets/walk.h"
+
+namespace pomona {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct EvalArguments {
+  std::vector<std::string> roots;
+  MethodArguments methods;
+  std::string mask = "all";
+  bool weighted = false;
+  std::string json, csv, report, submission;
+};
+
+void checkOutputs(const EvalArguments& arguments) {
+  const struct {
+    const char *option, *extension;
+    const std::string& path;
+  } kOutputs[] = {{"--json", ".json", arguments.json},
+                  {"--csv", ".csv", arguments.csv},
+                  {"--report", ".html", arguments.report}};
+  for (const auto& output : kOutputs) {
+    if (output.path.empty()) continue;
+    if (extensionOf(output.path) != output.extension || fs::path(output.path).filename() == "manifest.csv")
+      throw std::runtime_error(std::string(output.option) + " is '" + output.path +
+                               "'; allowed: a name that ends in " + output.extension +
+                               ", other than manifest.csv");
+    checkOutputPath(output.path);
+  }
+  if (!arguments.submission.empty() && fs::exists(arguments.submission) &&
+      !fs::is_directory(arguments.submission))
+    throw std::runtime_error("--submission is '" + arguments.submission + "', which is no folder");
+}
+
+std::vector<EvalRecord::Fact> factsOf(const EvalArguments& arguments) {
+  const std::time_t now = std::time(nullptr);
+  char date[32];
+  std::strftime(date, sizeof(date), "%Y-%m-%d %H:%M UTC", std::gmtime(&now));
+  const int threads = arguments.methods.threads > 0 ? arguments.methods.threads : availableThreads();
+  std::string folders;
+  for (const std::string& root : arguments.roots) folders += (folders.empty() ? "" : ", ") + root;
+  return {{"date", date},
+          {"pomona", POMONA_VERSION},
+          {"CPU", std::string(cpuModel())},
+          {"instruction set", std::string(name(chooseIsa("")))},
+          {"threads", std::to_string(threads)},
+          {"OpenCV", CV_VERSION ", " + cv::getCPUFeaturesLine()},
+          {"folders", folders},
+          {"maps", arguments.methods.mode},
+          {"pixels in the table", arguments.mask == "all" ? "all with known truth" : "non-occluded"},
+          {"mean over scenes", arguments.weighted ? "Middlebury v3's weights" : "each scene counts the same"},
+          {"disparities searched",
+           "0 to the data set's bound; without one, to the largest true disparity + 4, rounded up to a "
+           "multiple of 16; without truth, to ndisp, or as estimated"},
+          {"thresholds", "in pixels of the given images"},
+          {"time", "wall clock, images in memory to finished maps, one run per pair"}};
+}
+
+class Table {
+ public:
+  explicit Table(const std::vector<SceneFiles>& scenes, const std::vector<NamedMethod>& methods) {
+    for (const SceneFiles& scene : scenes) scene_width_ = std::max(scene_width_, scene.name.size());
+    for (const NamedMethod& method : methods) method_width_ = std::max(method_width_, method.name.size());
+    std::string line = cells("scene", "method");
+    for (const FigureColumn& column : figureColumns())
+      if (column.in_terminal) line += padded(column.name);
+    std::cout << line << '\n';
+  }
+  void add(const std::string& scene, const std::string& method, const std::vector<double>& figures) const {
+    std::string line = cells(scene, method);
+    for (std::size_t i = 0; i < figures.size(); ++i)
+      if (const FigureColumn& column = figureColumns()[i]; column.in_terminal)
+        line += padded(shown(figures[i], column.decimals));
+    std::cout << line << std::endl;  // row by row: a run may take long
+  }
+
+ private:
+  static std::string padded(const std::string& text) {
+    constexpr std::size_t kWidth = 9;
+    return std::string(text.size() < kWidth ? kWidth - text.size() : 1, ' ') + text;
+  }
+  std::string cells(std::string scene, std::string method) const {
+    scene.resize(scene_width_ + 2, ' ');
+    method.resize(method_width_, ' ');
+    return scene + method;
+  }
+  std::size_t scene_width_ = 5, method_width_ = 6;
+};
+
+/// One run over all scenes. What goes wrong with a scene or method is noted, said, and passed over.
+class Evaluation {
+ public:
+  Evaluation(const EvalArguments& arguments, std::vector<SceneFiles> scenes)
+      : arguments_(arguments),
+        methods_(makeMethods(arguments.methods)),
+        scenes_(std::move(scenes)),
+        progress_(static_cast<int>(scenes_.size() * methods_.size())),
+        table_(scenes_, methods_) {
+    record_.facts = factsOf(arguments);
+    for (const NamedMethod& method : methods_) record_.methods.push_back(method.name);
+    record_.region = arguments.mask == "all" ? Region::kAll : Region::kNonoccluded;
+    record_.weighted = arguments.weighted;
+  }
+
+  void run() {
+    for (const SceneFiles& files : scenes_) measureScene(files);
+    progress_.clear();
+    if (!record_.measurements.empty())
+      for (const std::string& method : record_.methods)
+        table_.add("mean", method, record_.meanOfMethod(method, record_.region));
+    writeResults();
+    if (!record_.problems.empty())
+      throw std::runtime_error(std::to_string(failed_scenes_) + " of " + std::to_string(scenes_.size()) +
+                               " scenes could not be measured, or not by all methods");
+  }
+
+ private:
+  void measureScene(const SceneFiles& files) {
+    progress_.show(files.name);
+    Scene scene;
+    try {
+      const MutedErrorStream muted;
+      scene = readScene(files);
+      if (scene.ground_truth.empty() && arguments_.submission.empty())
+        throw std::runtime_error("there is no ground truth; --submission would run it all the same");
+    } catch (const std::exception& error) {
+      note(files.name + ": " + error.what());
+      ++failed_scenes_;
+      progress_.stepsDone(static_cast<int>(methods_.size()));
+      return;
+    }
+    const std::size_t problems_before = record_.problems.size();
+    const int num_disparities = disparitiesToSearch(files, scene);
+    if (!arguments_.report.empty()) report_.addScene(files.name, scene, num_disparities);
+    for (const NamedMethod& method : methods_) {
+      progress_.show(files.name + ", " + method.name);
+      try {
+        measure(files, scene, method, num_disparities);
+      } catch (const std::exception& error) {
+        note(files.name + ", " + method.name + ": " + error.what());
+      }
+      progress_.stepsDone(1);
+    }
+    failed_scenes_ += record_.problems.size() > problems_before;
+  }
+
+  void measure(const SceneFiles& files, const Scene& scene, const NamedMethod& method, int num_disparities) {
+    const MethodOptions options = methodOptions(arguments_.methods, num_disparities);
+    const MethodResult result = method.method->run(scene.left, scene.right, options);
+    if (!arguments_.submission.empty()) submit(files, method.name, options.mode, result);
+    record_.measurements.push_back(score(files, scene, method.name, num_disparities, result));
+    if (!arguments_.report.empty()) report_.addMap(method.name, result.disparity);
+    progress_.clear();
+    table_.add(files.name, method.name, figuresOf(record_.measurements.back(), record_.region));
+  }
+
+  void submit(const SceneFiles& files, const std::string& method, OutputMode mode,
+              const MethodResult& result) {
+    constexpr double kMsPerS = 1000;
+    std::vector<OutputFile> outputs =
+        submissionFiles(files, method, mode, result.disparity, result.milliseconds / kMsPerS);
+    for (OutputFile& output : outputs) {
+      output.path = (fs::path(arguments_.submission) / method / output.path).string();
+      fs::create_directories(fs::path(output.path).parent_path());
+    }
+    writeFiles(outputs);
+  }
+
+  void note(std::string problem) {
+    std::replace(problem.begin(), problem.end(), '\n', ' ');
+    progress_.clear();
+    std::cerr << "pomona: error: " << problem << '\n';
+    record_.problems.push_back(std::move(problem));
+  }
+
+  void writeResults() const {
+    std::vector<OutputFile> outputs;
+    if (!arguments_.json.empty()) outputs.push_back({arguments_.json, jsonOf(record_)});
+    if (!arguments_.csv.empty()) outputs.push_back({arguments_.csv, csvOf(record_)});
+    if (!arguments_.report.empty()) outputs.push_back({arguments_.report, report_.html(record_)});
+    writeFiles(outputs);
+  }
+
+  const EvalArguments& arguments_;
+  std::vector<NamedMethod> methods_;
+  std::vector<SceneFiles> scenes_;
+  Progress progress_;
+  Table table_;
+  EvalRecord record_;
+  HtmlReport report_;
+  std::size_t failed_scenes_ = 0;
+};
+
+void evaluate(const EvalArguments& arguments) {
+  checkOutputs(arguments);
+  Evaluation(arguments, findScenes(arguments.roots)).run();
+}
+
+}  // namespace
+
+void addEval(CLI::App& app) {
+  CLI::App* verb = app.add_subcommand("eval", "Measure methods on data sets with known truth");
+  const auto arguments = std::make_shared<EvalArguments>();  // lives as long as the callback
+  verb->add_option("folders", arguments->roots,
+                   "Middlebury, KITTI or ETH3D trees, or folders with a manifest.csv")
+      ->required();
+  addMethodOptions(*verb, arguments->methods, {"balanced", "quality", "paper", "ssd", "ncc", "opencv-hh"});
+  verb->add_option("--mask", arguments->mask,
+                   "Pixels that count in the table: all (default) or nocc, seen by both cameras")
+      ->check(CLI::IsMember({"all", "nocc"}));
+  verb->add_flag("--weighted", arguments->weighted, "Means with the weights of Middlebury v3's table");
+  verb->add_option("--json", arguments->json, "Write all figures (.json)");
+  verb->add_option("--csv", arguments->csv, "Write all figures (.csv)");
+  verb->add_option("--report", arguments->report, "Write a page with tables, curves and maps (.html)");
+  verb->add_option(
+      "--submission", arguments->submission,
+      "Write the maps below this folder as the benchmarks want them; runs scenes without truth too");
+  verb->callback([arguments] { evaluate(*arguments); });
+}
+
+}  // namespace pomona
