@@ -53,7 +53,7 @@ struct StereoEngine::State {
   }
   void fillWithCoarse(const SparseStage::Settings& settings);
   void complete(const SparseStage::Settings& settings, StageClock& clock);
-  void matchAgain(SparseStage::Settings settings, StageClock& clock);
+  void matchAgain(const SparseStage::Settings& settings, StageClock& clock);
   void publish();
 };
 
@@ -116,15 +116,16 @@ void StereoEngine::State::complete(const SparseStage::Settings& settings, StageC
 }
 
 /// The second pass: the completed map, which sparse.maps() holds, becomes the prior of another match.
-void StereoEngine::State::matchAgain(SparseStage::Settings settings, StageClock& clock) {
+void StereoEngine::State::matchAgain(const SparseStage::Settings& settings, StageClock& clock) {
   std::swap(first_map, sparse.maps().disparity);
   MatchInput views = input.views();
   views.prior = first_map.view();
-  settings.match.cost = options.second_pass.cost;
-  settings.match.aggregation = options.second_pass.aggregation;
-  settings.match.prior_weight = options.second_pass.weight;
-  settings.match.prior_reach_px = options.second_pass.reach_px;
-  sparse.run(views, settings, clock);
+  SparseStage::Settings again = settings;
+  again.match.cost = options.second_pass.cost;
+  again.match.aggregation = options.second_pass.aggregation;
+  again.match.prior_weight = options.second_pass.weight;
+  again.match.prior_reach_px = options.second_pass.reach_px;
+  sparse.run(views, again, clock);
   complete(settings, clock);
 }
 
@@ -156,6 +157,7 @@ const StereoResult& StereoEngine::compute(const cv::Mat& left, const cv::Mat& ri
   SparseStage::Settings settings = s.settings(mask);
   clock.lap("input");
 
+  const AggregationOptions* last_match = &s.options.aggregation;  // the one that the margins come from
   if (s.completesBy(CompletionMethod::kPaper)) {
     s.fillWithCoarse(settings);
     clock.lap("coarse maps");
@@ -167,10 +169,13 @@ const StereoResult& StereoEngine::compute(const cv::Mat& left, const cv::Mat& ri
     s.sparse.run(s.input.views(), settings, clock);
     if (s.completesBy(CompletionMethod::kFillHoles)) {
       s.complete(settings, clock);
-      if (s.options.second_pass.enabled) s.matchAgain(settings, clock);
+      if (s.options.second_pass.enabled) {
+        s.matchAgain(settings, clock);
+        last_match = &s.options.second_pass.aggregation;
+      }
     }
   }
-  estimateConfidence(s.sparse.maps(), s.options.aggregation, s.confidence, s.threads);
+  estimateConfidence(s.sparse.maps(), *last_match, s.confidence, s.threads);
   clock.lap("confidence");
   s.publish();
   return s.result;

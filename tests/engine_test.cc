@@ -108,7 +108,7 @@ TEST(Engine, WholeFrameGoldenHashes) {
   EXPECT_EQ(hash("fast", OutputMode::kDense), 688948504643185778u);
   EXPECT_EQ(hash("balanced", OutputMode::kSparse), 1608317443547902257u);
   EXPECT_EQ(hash("balanced", OutputMode::kDense), 6245477057888819099u);
-  EXPECT_EQ(hash("quality", OutputMode::kDense), 3452293529535639645u);
+  EXPECT_EQ(hash("quality", OutputMode::kDense), 667738576365171917u);
 }
 
 TEST(Engine, AnEngineGivesTheSameFrameAfterFrameOfAnySize) {
