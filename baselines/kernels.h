@@ -8,7 +8,10 @@ namespace pomona {
 enum class Isa;  // core/cpu.h; kernel files must not see the standard headers it includes
 
 /// Pixels of one call of `supportWeights` or `weightedCosts`, on every instruction set.
-inline constexpr int kAswBlock = 64;
+inline constexpr int kAswBlock = 32;
+/// Disparities of one call of `weightedCosts`. Weights that are loaded once serve all of them: the kernel
+/// waits for memory, not for arithmetic.
+inline constexpr int kAswDisparities = 4;
 
 /// Where the weights of one block of pixels come from. The pointers aim at the block's first pixel.
 struct AswSupport {
@@ -21,19 +24,21 @@ struct AswSupport {
   float color_scale;  ///< binary logarithm of the similarity weight per unit of colour distance, negated
 };
 
-/// The costs of one block of left pixels at one disparity. Taps are numbered row by row.
+/// A block of left pixels and a group of neighbouring disparities d, d + 1, ... Taps are numbered row by row.
 struct AswBlock {
-  const float* left_weight;  ///< of tap 0 for the block's first pixel
-  const float* right_weight;
-  std::ptrdiff_t left_tap_stride, right_tap_stride;  ///< from one tap to the next
-  const float* const* raw_cost;  ///< per window row: of the row's first tap for the block's first pixel
+  const float* left_weight;   ///< [tap * kAswBlock + x]
+  const float* right_weight;  ///< of tap 0, for the match of the first pixel at d; at d + j, j before that
+  std::ptrdiff_t right_tap_stride;      ///< from one tap to the next
+  const float* const* raw_cost;         ///< per window row: of the row's first tap, for the first pixel at d
+  std::ptrdiff_t raw_disparity_stride;  ///< from there to d + 1
   int rows, columns;
 };
 
 struct AswKernels {
   /// out[tap * tap_stride + x]: the support weight of each tap of each pixel; 0 outside the view.
   void (*supportWeights)(const AswSupport& support, float* out, std::ptrdiff_t tap_stride);
-  /// out[x] = sum of left weight * right weight * raw cost / sum of left weight * right weight.
+  /// out[j * kAswBlock + x] = sum of left weight * right weight * raw cost / sum of left weight * right
+  /// weight, at d + j; kAswDisparities rows.
   void (*weightedCosts)(const AswBlock& block, float* out);
 };
 

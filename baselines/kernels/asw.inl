@@ -21,7 +21,7 @@ inline Floats squareRoot(Floats v) {
 
 /// The weights of one tap, whose pixels start `offset` elements from the block's.
 inline void tapWeights(const AswSupport& support, std::ptrdiff_t offset, float log_proximity, float* out) {
-  constexpr int kVectors = 4;
+  constexpr int kVectors = 2;
   const Floats inside_limit = broadcast(__builtin_inff());
   for (int first = 0; first < kAswBlock; first += kVectors * kFloatLanes) {
     Floats square[kVectors], weight[kVectors];
@@ -47,25 +47,34 @@ void supportWeights(const AswSupport& support, float* out, std::ptrdiff_t tap_st
 }
 
 void weightedCosts(const AswBlock& block, float* out) {
-  constexpr int kVectors = 4;  // enough independent sums to hide the latency of an addition
+#if defined(__AVX512F__)
+  constexpr int kVectors = 2;
+#else
+  constexpr int kVectors = 1;  // 16 registers: two sums per disparity, and what is being added
+#endif
   static_assert(kAswBlock % (kVectors * kFloatLanes) == 0);
   for (int first = 0; first < kAswBlock; first += kVectors * kFloatLanes) {
-    Floats sum[kVectors] = {}, weight_sum[kVectors] = {};
+    Floats sum[kAswDisparities][kVectors] = {}, weight_sum[kAswDisparities][kVectors] = {};
     const float* left = block.left_weight + first;
     const float* right = block.right_weight + first;
     for (int row = 0; row < block.rows; ++row) {
       const float* raw = block.raw_cost[row] + first;
       for (int column = 0; column < block.columns; ++column, ++raw) {
         for (int v = 0; v < kVectors; ++v) {
-          const Floats weight = load(left + v * kFloatLanes) * load(right + v * kFloatLanes);
-          sum[v] = sum[v] + weight * load(raw + v * kFloatLanes);
-          weight_sum[v] = weight_sum[v] + weight;
+          const Floats left_weight = load(left + v * kFloatLanes);
+          for (int j = 0; j < kAswDisparities; ++j) {
+            const Floats weight = left_weight * load(right + v * kFloatLanes - j);
+            sum[j][v] = sum[j][v] + weight * load(raw + v * kFloatLanes + j * block.raw_disparity_stride);
+            weight_sum[j][v] = weight_sum[j][v] + weight;
+          }
         }
-        left += block.left_tap_stride;
+        left += kAswBlock;
         right += block.right_tap_stride;
       }
     }
-    for (int v = 0; v < kVectors; ++v) store(out + first + v * kFloatLanes, sum[v] / weight_sum[v]);
+    for (int j = 0; j < kAswDisparities; ++j)
+      for (int v = 0; v < kVectors; ++v)
+        store(out + j * kAswBlock + first + v * kFloatLanes, sum[j][v] / weight_sum[j][v]);
   }
 }
 

@@ -18,6 +18,6 @@ namespace pomona {
 /// and count as a failure. `found` has one entry per contender.
 std::vector<std::string> accuracyFailures(const std::vector<Contender>& contenders,
                                           const std::vector<MethodFigures>& found,
-                                          const AcceptedFigures& accepted);
+                                          const std::vector<MethodFigures>& accepted);
 
 }  // namespace pomona

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <iomanip>
-#include <limits>
 #include <opencv2/core/persistence.hpp>
 #include <opencv2/core/version.hpp>
 #include <sstream>
@@ -103,6 +102,19 @@ std::string jsonOf(const SceneFigures& scene) {
          ", \"nonoccluded\": " + jsonOf(scene.nonoccluded) + "}";
 }
 
+Figures figuresFrom(const cv::FileNode& node) {
+  Figures figures = noFigures();
+  for (std::size_t i = 0; i < kFigures; ++i)
+    if (const cv::FileNode figure = node[kFigureNames[i]]; !figure.isNone()) figures[i] = figure.real();
+  return figures;
+}
+
+MapKind kindOf(const std::string& method) {
+  for (const MapKind kind : {MapKind::kDense, MapKind::kSparse, MapKind::kRaw})
+    if (method.ends_with(std::string(" ") + kMapKindNames[static_cast<int>(kind)])) return kind;
+  throw std::runtime_error("\"" + method + "\" ends in no kind of map");
+}
+
 }  // namespace
 
 std::string markdown(const std::vector<MethodFigures>& methods) {
@@ -134,23 +146,24 @@ std::string json(const std::vector<MethodFigures>& methods) {
   return "{\n \"scenes\": [" + scenes + "],\n \"methods\": {\n" + body + "\n }\n}\n";
 }
 
-AcceptedFigures readAccepted(const std::string& path) {
-  AcceptedFigures accepted;
+std::vector<MethodFigures> readFigures(const std::string& path) {
+  std::vector<MethodFigures> methods;
   try {
     const cv::FileStorage file(path, cv::FileStorage::READ | cv::FileStorage::FORMAT_JSON);
     if (!file.isOpened()) throw std::runtime_error("cannot be read");
-    for (const cv::FileNode scene : file["scenes"]) accepted.scenes.push_back(scene.string());
-    for (const cv::FileNode method : file["methods"]) {
-      Figures& mean = accepted.mean[method.name()];
-      for (int i = 0; i < kFigures; ++i) {
-        const cv::FileNode figure = method["mean"]["all"][kFigureNames[i]];
-        mean[i] = figure.isNone() ? std::numeric_limits<double>::quiet_NaN() : figure.real();
+    for (const cv::FileNode node : file["methods"]) {
+      MethodFigures method{node.name(), kindOf(node.name()), {}};
+      for (const cv::FileNode name : file["scenes"]) {
+        const cv::FileNode scene = node[name.string()];
+        method.scenes.push_back(
+            {name.string(), figuresFrom(scene["all"]), figuresFrom(scene["nonoccluded"])});
       }
+      methods.push_back(method);
     }
   } catch (const std::exception& error) {
     throw std::runtime_error(path + ": " + error.what());
   }
-  return accepted;
+  return methods;
 }
 
 }  // namespace pomona

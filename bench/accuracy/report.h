@@ -1,7 +1,6 @@
 // The figures of all methods on all scenes: as tables to read, and as JSON to compare with later.
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -16,12 +15,8 @@ std::string markdown(const std::vector<MethodFigures>& methods);
 /// figures that are not to be had are left out.
 std::string json(const std::vector<MethodFigures>& methods);
 
-/// An earlier json(), as far as the guard needs it.
-struct AcceptedFigures {
-  std::vector<std::string> scenes;
-  std::map<std::string, Figures, std::less<>> mean;  ///< by method, over all pixels
-};
-/// Throws std::runtime_error naming the file if it cannot be read.
-AcceptedFigures readAccepted(const std::string& path);
+/// An earlier json(), to two or three decimals. Throws std::runtime_error naming the file if it cannot be
+/// read.
+std::vector<MethodFigures> readFigures(const std::string& path);
 
 }  // namespace pomona
