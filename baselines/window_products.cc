@@ -1,30 +1,44 @@
 #include "baselines/window_products.h"
 
 namespace pomona {
+namespace {
+
+/// out[x] = the sum of columns[x] to columns[x + side - 1].
+template <typename Sum>
+void slideWindow(const std::vector<Sum>& columns, int side, int width, Sum* out) {
+  Sum window = 0;
+  for (int u = 0; u < side - 1; ++u) window += columns[static_cast<std::size_t>(u)];
+  for (int x = 0; x < width; ++x) {
+    window += columns[static_cast<std::size_t>(x + side - 1)];
+    out[x] = window;
+    window -= columns[static_cast<std::size_t>(x)];
+  }
+}
+
+}  // namespace
 
 template <typename T>
-WindowMoments<T>::WindowMoments(const PixelView<T>& view, int radius, int threads)
+WindowMoments<T>::WindowMoments(const PixelView<T>& view, int radius)
     : sum(static_cast<std::size_t>(view.channels)) {
   using Sum = WindowSum<T>;
   for (Image<Sum>& plane : sum) plane.resize(view.width, view.height);
   squares.resize(view.width, view.height);
-  parallelStrips(threads, view.height, 8, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < view.width; ++x) {
-        Sum all_squares = 0;
-        for (int c = 0; c < view.channels; ++c) {
-          Sum total = 0;
-          for (int v = -radius; v <= radius; ++v)
-            for (int u = -radius; u <= radius; ++u) {
-              const Sum value = view.nearest(y + v, x + u)[c];
-              total += value;
-              all_squares += value * value;
-            }
-          sum[static_cast<std::size_t>(c)].row(y)[x] = total;
+  const int side = 2 * radius + 1, columns = view.width + 2 * radius;
+  std::vector<Sum> value_sums(static_cast<std::size_t>(columns)), square_sums(value_sums.size());
+  for (int y = 0; y < view.height; ++y) {
+    std::fill(square_sums.begin(), square_sums.end(), Sum{0});
+    for (int c = 0; c < view.channels; ++c) {
+      std::fill(value_sums.begin(), value_sums.end(), Sum{0});
+      for (int v = -radius; v <= radius; ++v)
+        for (int u = 0; u < columns; ++u) {
+          const Sum value = view.nearest(y + v, u - radius)[c];
+          value_sums[static_cast<std::size_t>(u)] += value;
+          square_sums[static_cast<std::size_t>(u)] += value * value;
         }
-        squares.row(y)[x] = all_squares;
-      }
-  });
+      slideWindow(value_sums, side, view.width, sum[static_cast<std::size_t>(c)].row(y));
+    }
+    slideWindow(square_sums, side, view.width, squares.row(y));
+  }
 }
 
 template <typename T>

@@ -40,7 +40,7 @@ struct WindowMoments {
   std::vector<Image<WindowSum<T>>> sum;
   Image<WindowSum<T>> squares;
 
-  WindowMoments(const PixelView<T>& view, int radius, int threads);
+  WindowMoments(const PixelView<T>& view, int radius);
 };
 
 /// sum over the window and the channels of left(x + u) right(x + u - d), for one row after the other.
@@ -94,11 +94,11 @@ struct WindowViews {
   PixelView<T> left, right;
   WindowMoments<T> left_moments, right_moments;
 
-  WindowViews(const cv::Mat& left_image, const cv::Mat& right_image, int radius, int threads)
+  WindowViews(const cv::Mat& left_image, const cv::Mat& right_image, int radius)
       : left(viewOf(left_image)),
         right(viewOf(right_image)),
-        left_moments(left, radius, threads),
-        right_moments(right, radius, threads) {}
+        left_moments(left, radius),
+        right_moments(right, radius) {}
 
  private:
   static PixelView<T> viewOf(const cv::Mat& image) {
@@ -115,7 +115,7 @@ WindowMaps matchByProducts(const cv::Mat& left, const cv::Mat& right, int radius
     throw std::invalid_argument("radius is " + std::to_string(radius) + "; allowed: 0 to " +
                                 std::to_string(kLargestWindowRadius));
   const auto match = [&]<typename T>(T) {
-    const WindowViews<T> views(left, right, radius, threads);
+    const WindowViews<T> views(left, right, radius);
     return pickWinners(left.cols, left.rows, range, position, threads,
                        [&](int first_row) -> std::unique_ptr<CostRows> {
                          return std::make_unique<Rows<T>>(views, radius, range, first_row);

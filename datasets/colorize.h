@@ -20,8 +20,9 @@ DisparityRange typicalRange(const cv::Mat& disparity);
 cv::Mat colorizeDisparity(const cv::Mat& disparity, DisparityRange range);
 
 /// The colour a state has in colorizeStates: measured light gray; filled from the background green,
-/// interpolated light green, from the coarse maps turquoise; occluded blue, mismatched red, ambiguous yellow,
-/// speckle magenta, out of range orange, masked black. White for a value outside the enumeration.
+/// interpolated light green, from the coarse maps turquoise, from a plane pale turquoise; occluded blue,
+/// mismatched red, ambiguous yellow, speckle magenta, out of range orange, masked black. White for a value
+/// outside the enumeration.
 cv::Vec3b stateColor(PixelState state);
 cv::Mat colorizeStates(const cv::Mat& states);
 

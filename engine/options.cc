@@ -123,9 +123,9 @@ Options Options::preset(std::string_view name) {
   if (name == "fast") {
     o.cost = {MatchingCost::kCensus5x5, 0};
     o.aggregation = {8, 5, 40, 10, PenaltyAdaptation::kSoftIntensity};
-    o.completion.seed_left_right_px =
-        o.validation.left_right_px;  // census alone leaves fewer seeds to choose from
-    o.completion.seed_speckle_size_px = o.validation.speckle_size_px;
+    // A plain census leaves too few seeds to be strict about them.
+    o.completion.seed_left_right_px = 1.0f;
+    o.completion.seed_speckle_size_px = 50;
     return o;
   }
   if (name == "quality") {

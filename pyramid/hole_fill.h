@@ -1,4 +1,4 @@
-// Values for the pixels that validation rejected, taken from the measured pixels around them.
+// Values for the pixels that validation rejected, taken from what lies around them.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,4 @@
-// The holes of a disparity map, and the nearest measured pixel in each of sixteen directions around every
-// hole.
+// The holes of a disparity map, and the nearest source in each of sixteen directions around every hole.
 #pragma once
 
 #include <array>

@@ -42,10 +42,10 @@ struct PlaneFillScratch {
 /// the full image twice, finely with k = 150 / scale and coarsely with k = 1350 / scale. Every segment with
 /// holes gets a robust plane (see plane_fit.h) through its sources, one of each block of scale x scale
 /// pixels, if there are at least 24 sources, if they are at least 30 % of sources and holes together (2 % in
-/// the coarse division), and if half of them lie near the plane. Its holes take the plane's disparities where
-/// these are within the range and hide nothing that the right view sees. The fine division comes first; the
-/// coarse one fills what it leaves, from measured pixels again. The result does not depend on the number of
-/// threads.
+/// the coarse division), and if half of them lie near the plane. Its holes take the plane's disparities, but
+/// none more than 1 px beyond those of the sources near the plane, where they are within the range and hide
+/// nothing that the right view sees. The fine division comes first; the coarse one fills what it leaves, from
+/// measured pixels again. The result does not depend on the number of threads.
 void fillFromPlanes(const PlaneFillInput& in, ImageView<float> disparity, ImageView<std::uint8_t> state,
                     PlaneFillScratch& scratch, const PyramidKernels& kernels, int threads);
 

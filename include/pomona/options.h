@@ -78,10 +78,11 @@ struct CompletionOptions {
   int seed_speckle_size_px = 100;
   /// kFillHoles: holes first take the plane that the measured pixels of their colour segment lie on.
   bool segment_planes = true;
-  int segment_scale =
-      4;  ///< segments are found in the image reduced so many times: 1, 2 or 4 (best and fastest)
-  /// A hole is filled from measured pixels at most this far away (pixels along a search ray); farther away
-  /// the coarse maps decide. At least 1.
+  /// Segments are found in the image reduced so many times: 1, 2 or 4. The default is both the best and the
+  /// fastest.
+  int segment_scale = 4;
+  /// A hole is filled from pixels, measured or on segment planes, at most this far away (along a search ray);
+  /// farther away the coarse maps decide. At least 1.
   int search_radius_px = 200;
   /// kFillHoles: move the jumps of the dense map to the edges of the left image, by a colour-weighted median
   /// near jumps of more than 1 px, and a 5 x 5 median of the whole map. Measured pixels change, too.

@@ -6,7 +6,8 @@
 
 namespace pomona {
 
-/// What a pixel of the disparity map is, and why. Values are stable: they are what `--state` writes.
+/// What a pixel of the disparity map is, and why. Values are stable: they are what `--state` writes to a .pgm
+/// (a .png shows them as colours).
 enum class PixelState : std::uint8_t {
   kMeasured = 0,  ///< matched, and passed every check
 
