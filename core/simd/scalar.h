@@ -23,7 +23,11 @@ constexpr int kBytes = 16;  ///< bytes in a U8
 constexpr int kUnrolledVectors =
     0;  ///< vectors per pixel worth a kernel of their own: none, they only take time to compile
 
+#if defined(POMONA_FEW_KERNELS)  // a sanitizer chokes on these loops when all of them are inlined
+#define POMONA_OP inline
+#else
 #define POMONA_OP inline __attribute__((always_inline))
+#endif
 
 template <typename F>
 POMONA_OP U8 eachByte(F f) {
