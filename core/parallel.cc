@@ -4,7 +4,9 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -23,8 +25,17 @@ struct Job {
   Job* behind = nullptr;
   std::condition_variable left{};
 
+  std::atomic<bool> failed{false};
+  std::exception_ptr failure{};  // written by the one that set `failed`
+
+  /// Takes tasks until none is left, or one has thrown.
   void drain() {
-    for (int i; (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) task(i);
+    try {
+      for (int i; (i = next.fetch_add(1, std::memory_order_relaxed)) < count;) task(i);
+    } catch (...) {
+      next.store(count, std::memory_order_relaxed);
+      if (!failed.exchange(true)) failure = std::current_exception();
+    }
   }
 };
 
@@ -39,7 +50,10 @@ class Pool {
 
   void run(Job& job, int threads) {
     std::unique_lock lock(mutex_);
-    while (static_cast<int>(workers_.size()) < threads - 1) workers_.emplace_back([this] { work(); });
+    try {
+      while (static_cast<int>(workers_.size()) < threads - 1) workers_.emplace_back([this] { work(); });
+    } catch (const std::system_error&) {  // no further thread to be had: those there are will do
+    }
     job.wanted = threads - 1;
     job.behind = jobs_;
     jobs_ = &job;
@@ -55,6 +69,8 @@ class Pool {
     while (*link != &job) link = &(*link)->behind;
     *link = job.behind;
     job.left.wait(lock, [&] { return job.active == 0; });
+    lock.unlock();
+    if (job.failure) std::rethrow_exception(job.failure);
   }
 
   ~Pool() {

@@ -26,7 +26,8 @@ class FunctionRef<R(Args...)> {
 };
 
 /// Calls `task(i)` for every i in [0, count), on up to `threads` threads; returns when all are done.
-/// Tasks are handed out in order, and must not throw. `threads` <= 1 runs them here, one after the other.
+/// Tasks are handed out in order. If one throws, no further ones are begun, and the exception comes out here.
+/// `threads` <= 1 runs them here, one after the other.
 void parallelFor(int threads, int count, FunctionRef<void(int)> task);
 
 /// Cuts `rows` into strips of at least `min_rows` (a few per thread) and calls `task(begin, end)` for each.

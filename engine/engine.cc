@@ -54,6 +54,7 @@ struct StereoEngine::State {
   void fillWithCoarse(const SparseStage::Settings& settings);
   void complete(const SparseStage::Settings& settings, StageClock& clock);
   void matchAgain(const SparseStage::Settings& settings, StageClock& clock);
+  void clampToRange();
   void publish();
 };
 
@@ -113,6 +114,20 @@ void StereoEngine::State::complete(const SparseStage::Settings& settings, StageC
             maps.disparity.view(), maps.state.view(), hole_fill, pyramidKernels(isa), threads);
   clock.lap("hole filling");
   refinement.run(maps.disparity, input.views().guide, options.completion, filterKernels(isa), threads, clock);
+}
+
+/// Filling and smoothing may overshoot; no disparity leaves the searched range.
+void StereoEngine::State::clampToRange() {
+  Image<float>& disparity = sparse.maps().disparity;
+  const float low = static_cast<float>(options.min_disparity);
+  const float high = static_cast<float>(options.min_disparity + options.num_disparities - 1);
+  parallelStrips(threads, disparity.height(), 32, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      for (int x = 0; x < disparity.width(); ++x) {
+        float& d = disparity.row(y)[x];
+        d = d < low ? low : d > high ? high : d;  // NaN stays
+      }
+  });
 }
 
 /// The second pass: the completed map, which sparse.maps() holds, becomes the prior of another match.
@@ -175,6 +190,7 @@ const StereoResult& StereoEngine::compute(const cv::Mat& left, const cv::Mat& ri
       }
     }
   }
+  if (s.options.mode == OutputMode::kDense) s.clampToRange();
   estimateConfidence(s.sparse.maps(), *last_match, s.confidence, s.threads);
   clock.lap("confidence");
   s.publish();

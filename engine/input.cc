@@ -108,10 +108,10 @@ void requireRangeFits(int min_disparity, int num_disparities, int width) {
   if (num_disparities > width)
     throw std::invalid_argument("num_disparities is " + std::to_string(num_disparities) +
                                 "; allowed: at most the image width, " + std::to_string(width));
-  if (min_disparity >= width || min_disparity + num_disparities <= -width)
+  if (min_disparity >= width || min_disparity + num_disparities <= 1 - width)
     throw std::invalid_argument(
         "min_disparity is " + std::to_string(min_disparity) +
-        "; allowed: " + std::to_string(1 - width - num_disparities) + " to " + std::to_string(width - 1) +
+        "; allowed: " + std::to_string(2 - width - num_disparities) + " to " + std::to_string(width - 1) +
         ", or no pixel has a match inside the right image of width " + std::to_string(width));
 }
 

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdlib>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -19,6 +20,16 @@ TEST(ParallelFor, RunsEveryTaskOnceForAnyThreadCount) {
     parallelFor(threads, 101, [&](int i) { ++calls[i]; });
     for (int c : calls) EXPECT_EQ(c, 1) << "threads " << threads;
   }
+}
+
+TEST(ParallelFor, HandsOnWhatATaskThrows) {
+  for (int threads : {1, 2, 7})
+    for (int round = 0; round < 50; ++round)
+      EXPECT_THROW(parallelFor(threads, 20,
+                               [&](int i) {
+                                 if (i == round % 20) throw std::bad_alloc();
+                               }),
+                   std::bad_alloc);
 }
 
 TEST(ParallelStrips, CoversAllRowsWithoutOverlap) {

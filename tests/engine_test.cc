@@ -372,6 +372,18 @@ TEST(Engine, OddImagesGiveAValidMap) {
         }
 }
 
+TEST(Engine, DenseMapsStayInTheSearchedRange) {
+  const RenderedPair pair = scene("planes", 160, 90, 24);
+  for (const char* preset : {"fast", "balanced", "quality", "paper"})
+    for (int narrow : {6, 12}) {  // too few for the scene: everything is pushed against the end of the range
+      const StereoResult r = computeDisparity(pair.left.image, pair.right.image, makeOptions(preset, narrow));
+      double low = 0, high = 0;
+      cv::minMaxLoc(r.disparity, &low, &high);
+      EXPECT_GE(low, 0) << preset;
+      EXPECT_LE(high, narrow - 1) << preset;
+    }
+}
+
 TEST(Engine, DisparityRangeUpToTheLimit) {
   cv::Mat left(12, 1100, CV_8U), right(12, 1100, CV_8U, cv::Scalar(0));
   cv::randu(left, 0, 256);
