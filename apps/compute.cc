@@ -59,7 +59,11 @@ SearchRange searchRange(const ComputeArguments& arguments, const ComputeInputs& 
     count = std::int64_t{ndisp} - range.min;
   } else {
     range.source = "estimate";
-    count = estimateNumDisparities(inputs.left, inputs.right, range.min);
+    Options options;
+    options.min_disparity = range.min;
+    options.threads = arguments.threads;
+    options.isa = arguments.isa;
+    count = estimateNumDisparities(inputs.left, inputs.right, options, inputs.mask);
   }
   constexpr int kMostDisparities = 1024;
   const int most = std::min(kMostDisparities, width);
@@ -89,7 +93,8 @@ void printSummary(const ComputeArguments& arguments, const SearchRange& range, c
   const double percent = 100.0 / static_cast<double>(result.disparity.total());
   print("size      %d x %d", result.disparity.cols, result.disparity.rows);
   print("searched  %d to %d px (%s)", range.min, range.min + range.count - 1, range.source.c_str());
-  if (known > 0) print("found     %.2f to %.2f px", low, high);
+  const auto noMinusZero = [](float d) { return std::abs(d) < 0.005f ? 0.0f : d; };
+  if (known > 0) print("found     %.2f to %.2f px", noMinusZero(low), noMinusZero(high));
   print("coverage  %.2f %% (%s)", percent * known, arguments.mode.c_str());
   for (std::size_t state = 0; state < pixels_in_state.size(); ++state)
     if (pixels_in_state[state] > 0)

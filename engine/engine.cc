@@ -67,8 +67,7 @@ SparseStage::Settings StereoEngine::State::settings(const cv::Mat& mask) const {
     s.validation.left_right_px = options.completion.seed_left_right_px;
     s.validation.speckle_size_px = options.completion.seed_speckle_size_px;
   }
-  if (!mask.empty())
-    s.mask = {mask.ptr<std::uint8_t>(), mask.cols, mask.rows, static_cast<std::ptrdiff_t>(mask.step1())};
+  s.mask = maskView(mask);
   s.isa = isa;
   s.threads = threads;
   return s;
@@ -197,9 +196,10 @@ const StereoResult& StereoEngine::compute(const cv::Mat& left, const cv::Mat& ri
   return s.result;
 }
 
-StereoResult computeDisparity(const cv::Mat& left, const cv::Mat& right, const Options& options) {
+StereoResult computeDisparity(const cv::Mat& left, const cv::Mat& right, const Options& options,
+                              const cv::Mat& mask) {
   StereoEngine engine(options);
-  StereoResult result = engine.compute(left, right);
+  StereoResult result = engine.compute(left, right, mask);
   for (cv::Mat* map : {&result.disparity, &result.state, &result.confidence}) *map = map->clone();
   return result;
 }

@@ -1,7 +1,8 @@
 #include "pomona/options.h"
 
-#include <cmath>
+#include <charconv>
 #include <initializer_list>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -13,10 +14,8 @@ namespace pomona {
 namespace {
 
 std::string text(double v) {
-  std::string s = std::to_string(v);
-  if (s.find('.') != std::string::npos) s.erase(s.find_last_not_of('0') + 1);
-  if (!s.empty() && s.back() == '.') s.pop_back();
-  return s;
+  char digits[32];
+  return {digits, std::to_chars(std::begin(digits), std::end(digits), v).ptr};
 }
 
 [[noreturn]] void refuse(const std::string& field, double value, const std::string& allowed) {

@@ -22,8 +22,6 @@ struct MatchInput {
   GuideView guide;  ///< the left view with its colours: steers penalties and supports
 
   ImageView<const float> prior = {};  ///< empty, or disparities to be drawn to
-
-  bool isDeep() const { return !left16.empty(); }
 };
 
 struct MatchOptions {

@@ -46,6 +46,16 @@ TEST(AccuracyGuard, PassesWhatIsNoWorse) {
   EXPECT_EQ(s.failures(), 0u);
 }
 
+TEST(AccuracyGuard, HoldsSomeScenesAgainstThoseAlone) {
+  Setting s;
+  Figures bad;
+  bad.fill(99);
+  s.accepted[0].scenes.push_back({"another", bad, bad});  // would lift the accepted mean
+  EXPECT_EQ(s.failures(), 0u);
+  s.found[0] = figures("ours dense", MapKind::kDense, 8.2);
+  EXPECT_EQ(s.failures(), 2u);
+}
+
 TEST(AccuracyGuard, FailsWhatSlippedAndWhatLosesToThePeer) {
   Setting slipped;
   slipped.found[0] = figures("ours dense", MapKind::kDense, 8.2);
@@ -59,9 +69,9 @@ TEST(AccuracyGuard, FailsWhatSlippedAndWhatLosesToThePeer) {
   Setting broken;
   broken.found[1] = figures("paper dense", MapKind::kDense, std::nan(""));
   EXPECT_EQ(broken.failures(), 2u);
-  Setting other_scenes;
-  other_scenes.accepted[0].scenes.push_back({"another", {}, {}});
-  EXPECT_EQ(other_scenes.failures(), 1u);
+  Setting unknown_scene;
+  unknown_scene.found[0].scenes.push_back({"another", {}, {}});
+  EXPECT_EQ(unknown_scene.failures(), 1u);
   Setting unknown;
   unknown.accepted.erase(unknown.accepted.begin());
   EXPECT_EQ(unknown.failures(), 1u);

@@ -2,7 +2,7 @@
 
 Usage: cli_test.py path/to/pomona [unittest arguments]
 Every refusal must be one line on the error stream that starts with "pomona: error:" and names the culprit, with exit
-status 1 (bad input) or 2 (bad usage), and must leave no output behind.
+status 1 (bad input, bad values) or 2 (bad usage), and must leave no output behind.
 """
 
 import array
@@ -304,10 +304,10 @@ class BadOptions(CommandTest):
         self.refuse("threads is 5000", "--threads", "5000")
 
     def test_usage(self):
-        self.refuse("--mode", "--mode", "thick", status=2)
-        self.refuse("--max-disparity", "--max-disparity", "many", status=2)
-        self.refuse("--max-disparity", "--max-disparity", "nan", status=2)
-        self.refuse("--max-disparity", "--max-disparity", "99999999999", status=2)
+        self.refuse("--mode", "--mode", "thick")
+        self.refuse("--max-disparity", "--max-disparity", "many")
+        self.refuse("--max-disparity = nan; allowed: a whole number", "--max-disparity", "nan")
+        self.refuse("--max-disparity", "--max-disparity", "99999999999")
         self.refuse("--nonsense", "--nonsense", status=2)
         self.assert_refused(self.run_command(), "compute, eval, compare, info or render", 2)
         self.assert_refused(self.run_command("guess"), "guess", 2)
@@ -327,7 +327,7 @@ class BadOptions(CommandTest):
         self.put("file", "x")
         self.assert_refused(self.run_command("render", "boxes", "--size", "16x16", "-o", "file"), "file")
         self.assert_refused(self.run_command("render", "boxes", "--size", "16x16", "-o", "no/where"), "no/where")
-        self.assert_refused(self.run_command("render", "boxes", "--seed", "x", "-o", "scene"), "--seed", 2)
+        self.assert_refused(self.run_command("render", "boxes", "--seed", "x", "-o", "scene"), "--seed")
         self.assert_left_alone(["file"])
 
 

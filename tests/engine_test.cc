@@ -358,6 +358,23 @@ TEST(Engine, EightBitImagesInSixteenBitsMatchAlike) {
   EXPECT_NEAR(deep.bad1_of_all, plain.bad1_of_all, 0.01);
 }
 
+TEST(Engine, AFewHotPixelsDoNotCostSixteenBitImagesTheirContrast) {
+  const RenderedPair pair = scene("boxes", 150, 80, 24);
+  cv::Mat left, right;
+  pair.left.image.convertTo(left, CV_16U, 4);  // a 10-bit camera
+  pair.right.image.convertTo(right, CV_16U, 4);
+  const Options o = makeOptions("balanced", 30);
+  const StereoResult want = computeDisparity(left, right, o);
+  left(cv::Rect(3, 70, 2, 1)).setTo(cv::Scalar::all(65535));
+  right(cv::Rect(140, 5, 2, 1)).setTo(cv::Scalar::all(65535));
+  const StereoResult got = computeDisparity(left, right, o);
+  int close = 0;
+  for (int y = 0; y < 80; ++y)
+    for (int x = 0; x < 150; ++x)
+      close += std::abs(got.disparity.at<float>(y, x) - want.disparity.at<float>(y, x)) < 0.05f;
+  EXPECT_GT(close, 0.95 * 150 * 80);
+}
+
 TEST(Engine, OddImagesGiveAValidMap) {
   for (const char* preset : {"fast", "balanced", "quality", "paper"})
     for (cv::Size size : {cv::Size(1, 1), cv::Size(1, 40), cv::Size(40, 1), cv::Size(2, 2), cv::Size(17, 3)})
@@ -404,6 +421,39 @@ TEST(Engine, EstimatesTheRange) {
     EXPECT_GE(n, largest) << widest;
     EXPECT_LE(n, largest + 40) << widest;
   }
+}
+
+TEST(Engine, EstimatesTheRangeOfWhatIsNotMasked) {
+  const RenderedPair pair = scene("boxes", 400, 240, 80);
+  cv::Mat far = pair.left.disparity < 30;
+  const int all = estimateNumDisparities(pair.left.image, pair.right.image);
+  const int masked = estimateNumDisparities(pair.left.image, pair.right.image, {}, far);
+  EXPECT_GT(cv::countNonZero(far), 400 * 240 / 5);
+  EXPECT_LE(masked, 64);
+  EXPECT_GE(masked, 30);
+  EXPECT_GT(all, masked);
+  Options from_ten;
+  from_ten.min_disparity = 10;
+  EXPECT_NEAR(estimateNumDisparities(pair.left.image, pair.right.image, from_ten), all - 10, 16);
+}
+
+// Two textured surfaces, one above the other: masked, the lower one must not pull at the coarse maps.
+TEST(Engine, WhatIsMaskedDoesNotLeakIntoCoarseMaps) {
+  cv::Mat texture(160, 320, CV_8U), right(160, 240, CV_8U);
+  cv::RNG(5).fill(texture, cv::RNG::UNIFORM, 100, 156);
+  cv::GaussianBlur(texture, texture, {}, 3);
+  cv::normalize(texture, texture, 60, 190, cv::NORM_MINMAX);
+  const cv::Mat left = texture(cv::Rect(40, 0, 240, 160)).clone();
+  texture(cv::Rect(48, 0, 240, 80)).copyTo(right.rowRange(0, 80));     // disparity 8
+  texture(cv::Rect(80, 80, 240, 80)).copyTo(right.rowRange(80, 160));  // disparity 40
+  cv::Mat mask(160, 240, CV_8U, cv::Scalar(255));
+  mask.rowRange(80, 160) = 0;
+  const Options o = makeOptions("paper", 48);
+  const cv::Rect above(60, 68, 160, 12);
+  const double masked = cv::mean(computeDisparity(left, right, o, mask).disparity(above))[0];
+  const double whole = cv::mean(computeDisparity(left, right, o).disparity(above))[0];
+  EXPECT_NEAR(masked, 8, 0.7);
+  EXPECT_GT(whole, 10);
 }
 
 void expectRefused(const std::function<void()>& call, std::initializer_list<const char*> words) {
