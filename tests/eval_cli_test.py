@@ -193,7 +193,7 @@ class Eval(DatasetTest):
                 ("'out.txt'", ("data", "--json", "out.txt"), 1), ("'manifest.csv'", ("data", "--csv", "manifest.csv"), 1),
                 ("no/out.html", ("data", "--report", "no/out.html"), 1), ("--threads is -1", ("data", "--threads", "-1"), 1),
                 ("which is no folder", ("data", "--submission", "data/trainingQ/Boxes/im0.png"), 1),
-                ("--mask", ("data", "--mask", "some"), 2), ("--mode", ("data", "--mode", "thick"), 2),
+                ("--mask", ("data", "--mask", "some"), 1), ("--mode", ("data", "--mode", "thick"), 1),
                 ("folders", (), 2)):
             if ".ssh-like" in arguments:
                 os.mkdir(self.path(".ssh-like"))
