@@ -26,6 +26,8 @@ struct ComputeArguments {
   int min_disparity = 0;
   std::string preset = "balanced";
   std::string mode = "dense";
+  float min_confidence = 0;
+  std::string memory = "automatic";
   int threads = 0;
   std::string isa;
   bool timings = false;
@@ -44,6 +46,10 @@ struct SearchRange {
   std::vsnprintf(line.data(), line.size(), format, values);
   va_end(values);
   std::cout << line.data() << '\n';
+}
+
+MemoryMode memoryMode(const std::string& name) {
+  return name == "low" ? MemoryMode::kLow : name == "speed" ? MemoryMode::kSpeed : MemoryMode::kAutomatic;
 }
 
 SearchRange searchRange(const ComputeArguments& arguments, const ComputeInputs& inputs) {
@@ -124,6 +130,8 @@ void compute(const ComputeArguments& arguments) {
   options.min_disparity = range.min;
   options.num_disparities = range.count;
   options.mode = arguments.mode == "sparse" ? OutputMode::kSparse : OutputMode::kDense;
+  options.validation.min_confidence = arguments.min_confidence;
+  options.memory = memoryMode(arguments.memory);
   options.threads = arguments.threads;
   options.isa = arguments.isa;
 
@@ -152,6 +160,8 @@ void addFileOptions(CLI::App& verb, ComputePaths& paths) {
   verb.add_option("--color", paths.color, "Picture of the disparities (.png): warm is near, black unknown");
   verb.add_option("--state", paths.state, "Each pixel's state: a picture (.png), or its number (.pgm)");
   verb.add_option("--confidence", paths.confidence, "Confidence: gray picture (.png), or 0 to 1 (.pfm)");
+  verb.add_option("--sigma", paths.sigma,
+                  "Standard deviation of the disparities (.pfm, pixels, inf unknown)");
   verb.add_option("--depth", paths.depth,
                   "Depth: metres (.pfm, inf unknown), or millimetres (16-bit .png, 0 unknown)")
       ->needs(calibration);
@@ -170,6 +180,11 @@ void addMatchingOptions(CLI::App& verb, ComputeArguments& arguments) {
   verb.add_option("--preset", arguments.preset, "fast, balanced (default), quality or paper");
   verb.add_option("--mode", arguments.mode, "dense (default) or sparse: measured pixels only")
       ->check(CLI::IsMember({"dense", "sparse"}));
+  verb.add_option("--min-confidence", arguments.min_confidence,
+                  "With --mode sparse: leave out what is less likely right than this, 0 (default) to 1");
+  verb.add_option("--memory", arguments.memory,
+                  "speed, low (a little slower) or automatic (default): the same map in all")
+      ->check(CLI::IsMember({"automatic", "speed", "low"}));
   verb.add_option("--threads", arguments.threads, "Worker threads (default 0: one per processor)");
   verb.add_option("--isa", arguments.isa, "Instruction set to use (see pomona info)");
   verb.add_flag("--timings", arguments.timings, "Print the time of every stage");

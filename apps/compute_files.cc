@@ -53,6 +53,10 @@ std::string encodeConfidence(const Frame& frame, const std::string& extension) {
   return encodeImage(confidenceToGray(frame.result.confidence));
 }
 
+std::string encodeSigma(const Frame& frame, const std::string&) {
+  return encodePfm(frame.result.sigma_px);
+}
+
 std::string encodeDepth(const Frame& frame, const std::string& extension) {
   const cv::Mat depth = depthFromDisparity(frame.result.disparity, frame.inputs.calibration->stereo);
   return extension == ".pfm" ? encodePfm(depth) : encodeDepthPng(depth);
@@ -72,6 +76,7 @@ const std::vector<OutputKind>& outputKinds() {
       {"--color", &ComputePaths::color, {".png"}, encodeColor},
       {"--state", &ComputePaths::state, {".png", ".pgm"}, encodeState},
       {"--confidence", &ComputePaths::confidence, {".png", ".pfm"}, encodeConfidence},
+      {"--sigma", &ComputePaths::sigma, {".pfm"}, encodeSigma},
       {"--depth", &ComputePaths::depth, {".pfm", ".png"}, encodeDepth},
       {"--cloud", &ComputePaths::cloud, {".ply"}, encodeCloud},
       {"--error", &ComputePaths::error, {".png"}, encodeError},

@@ -40,8 +40,8 @@ int main(int argc, char** argv) {
     if (app.get_subcommands().empty())
       return fail("what to do? compute, eval, compare, info or render (see pomona --help)", kBadUsage);
     if (!std::cout.flush()) return fail("standard output: cannot be written", kBadInput);
-  } catch (const CLI::ConversionError& e) {  // all options that are not text are whole numbers
-    return fail(std::string(e.what()) + "; allowed: a whole number of 32 bits", kBadInput);
+  } catch (const CLI::ConversionError& e) {
+    return fail(std::string(e.what()) + "; allowed: a number (of 32 bits, where whole)", kBadInput);
   } catch (const CLI::ValidationError& e) {
     return fail(e.what(), kBadInput);
   } catch (const CLI::ParseError& e) {

@@ -105,6 +105,7 @@ void Options::validate() const {
   requireRange("validation.speckle_size_px", validation.speckle_size_px, 0, 1 << 30);
   requireRange("validation.speckle_step_px", validation.speckle_step_px, 0, 1e6);
   requireOneOf("validation.median_size", validation.median_size, {0, 3, 5});
+  requireRange("validation.min_confidence", validation.min_confidence, 0, 1);
 
   requireEnum("completion.method", completion.method, CompletionMethod::kPaper);
   requireRange("completion.seed_left_right_px", completion.seed_left_right_px, -1e6, 1e6);

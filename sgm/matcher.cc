@@ -18,13 +18,13 @@ void finishRow(const WinnerRow& w, int y, const MatchOptions& o, const SgmKernel
   refine({width, o.disparities, o.min_disparity, w.right_index, w.right_best, w.right_below, w.right_above,
           out.right_disparity.row(y)});
 
-  const float per_path = 1.0f / static_cast<float>(o.aggregation.paths);
   const int keep_percent = 100 - o.winner.uniqueness_percent;
   const bool everything = o.winner.uniqueness_percent == 0;
-  float* margin = out.margin.row(y);
+  std::uint16_t *margin = out.margin.row(y), *curvature = out.curvature.row(y);
   std::uint8_t* state = out.state.row(y);
   for (int x = 0; x < width; ++x) {
-    margin[x] = static_cast<float>(std::max(0, w.second[x] - w.best[x])) * per_path;
+    margin[x] = static_cast<std::uint16_t>(std::max(0, w.second[x] - w.best[x]));
+    curvature[x] = static_cast<std::uint16_t>(std::max(0, w.below[x] + w.above[x] - 2 * w.best[x]));
     const bool unique = everything | (100 * w.best[x] <= keep_percent * w.second[x]);
     state[x] = static_cast<std::uint8_t>(unique ? PixelState::kMeasured : PixelState::kAmbiguous);
   }
@@ -36,6 +36,7 @@ void MatchMaps::resize(int width, int height) {
   disparity.resize(width, height);
   right_disparity.resize(width, height);
   margin.resize(width, height);
+  curvature.resize(width, height);
   state.resize(width, height);
 }
 

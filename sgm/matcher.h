@@ -40,8 +40,10 @@ struct MatchOptions {
 struct MatchMaps {
   Image<float> disparity;        ///< of the left view; never NaN
   Image<float> right_disparity;  ///< of the right view; NaN where no left pixel maps to
-  Image<float> margin;           ///< (second-best - best) sum per path: how clearly the winner won, >= 0
-  Image<std::uint8_t> state;     ///< PixelState: measured, or ambiguous where uniqueness fails
+  /// Of the path sums S: how clearly the winner won, the lowest more than one disparity away less S(d),
+  /// large if there is none; and how sharply, S(d - 1) + S(d + 1) - 2 S(d).
+  Image<std::uint16_t> margin, curvature;
+  Image<std::uint8_t> state;  ///< PixelState: measured, or ambiguous where uniqueness fails
 
   void resize(int width, int height);
 };

@@ -306,7 +306,7 @@ class BadOptions(CommandTest):
     def test_usage(self):
         self.refuse("--mode", "--mode", "thick")
         self.refuse("--max-disparity", "--max-disparity", "many")
-        self.refuse("--max-disparity = nan; allowed: a whole number", "--max-disparity", "nan")
+        self.refuse("--max-disparity = nan; allowed: a number", "--max-disparity", "nan")
         self.refuse("--max-disparity", "--max-disparity", "99999999999")
         self.refuse("--nonsense", "--nonsense", status=2)
         self.assert_refused(self.run_command(), "compute, eval, compare, info or render", 2)

@@ -18,9 +18,14 @@ struct StageTiming {
 
 /// All maps have the size of the left image, which is the reference view.
 struct StereoResult {
-  cv::Mat disparity;   ///< CV_32F, pixels of the given image, d = x_left - x_right; quiet NaN where unknown
-  cv::Mat state;       ///< CV_8U, values of PixelState
-  cv::Mat confidence;  ///< CV_32F in [0, 1]; 0 where the disparity is unknown
+  cv::Mat disparity;  ///< CV_32F, pixels of the given image, d = x_left - x_right; quiet NaN where unknown
+  cv::Mat state;      ///< CV_8U, values of PixelState
+  /// CV_32F in [0, 1]: the probability that the disparity is right to within a pixel, as rendered scenes have
+  /// it (bench/confidence); 0 where it is unknown.
+  cv::Mat confidence;
+  /// CV_32F, pixels: the standard deviation of the disparity if it is right to within a pixel; NaN where it
+  /// is unknown. Filled pixels have larger ones than measured pixels.
+  cv::Mat sigma_px;
   std::vector<StageTiming> timings;  ///< in the order the stages ran
 
   PixelState stateAt(int y, int x) const { return static_cast<PixelState>(state.at<std::uint8_t>(y, x)); }

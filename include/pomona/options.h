@@ -62,6 +62,9 @@ struct ValidationOptions {
   int speckle_size_px = 50;
   float speckle_step_px = 1.0f;
   int median_size = 3;  ///< 0 (off), 3 or 5
+  /// Sparse maps only, after all else: what is less likely than this to be right to within a pixel becomes
+  /// kAmbiguous. 0 (off) to 1; 0.9 is strict, 0.98 keeps the best.
+  float min_confidence = 0;
 };
 
 enum class CompletionMethod {
