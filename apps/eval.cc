@@ -142,11 +142,14 @@ class Evaluation {
   void measureScene(const SceneFiles& files) {
     progress_.show(files.name);
     Scene scene;
+    int num_disparities = 0;
     try {
       const MutedErrorStream muted;
       scene = readScene(files);
       if (scene.ground_truth.empty() && arguments_.submission.empty())
         throw std::runtime_error("there is no ground truth; --submission would run it all the same");
+      num_disparities = disparitiesToSearch(files, scene);
+      if (!arguments_.report.empty()) report_.addScene(files.name, scene, num_disparities);
     } catch (const std::exception& error) {
       note(files.name + ": " + error.what());
       ++failed_scenes_;
@@ -154,8 +157,6 @@ class Evaluation {
       return;
     }
     const std::size_t problems_before = record_.problems.size();
-    const int num_disparities = disparitiesToSearch(files, scene);
-    if (!arguments_.report.empty()) report_.addScene(files.name, scene, num_disparities);
     for (const NamedMethod& method : methods_) {
       progress_.show(files.name + ", " + method.name);
       try {

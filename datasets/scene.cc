@@ -7,31 +7,14 @@
 #include <limits>
 #include <stdexcept>
 #include <string_view>
+#include <tuple>
 
-#include "datasets/disparity_file.h"
-#include "datasets/image_file.h"
+#include "datasets/scene_parts.h"
 
 namespace pomona {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string shown(cv::Size size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
-void requireSize(const std::string& path, const cv::Mat& image, cv::Size size) {
-  if (image.size() != size)
-    throw std::runtime_error(path + ": is " + shown(image.size()) + "; the left image is " + shown(size));
-}
-
-cv::Mat readByteMap(const std::string& path, cv::Size size) {
-  const cv::Mat map = readImage(path);
-  requireSize(path, map, size);
-  if (map.type() != CV_8UC1)
-    throw std::runtime_error(path + ": has " + describeType(map) + "; allowed: 1 channel of 8 bits");
-  return map;
-}
 
 std::string lowerCase(std::string text) {
   for (char& c : text)
@@ -52,13 +35,9 @@ int stepsPerPixel(const SceneFiles& files, int width) {
   return std::clamp(static_cast<int>(std::lround(reduction)), 1, views ? 3 : 4);
 }
 
-cv::Mat readTruth(const SceneFiles& files, cv::Size size) {
+cv::Mat readTruthOf(const SceneFiles& files, cv::Size size) {
+  if (files.layout != SceneLayout::kMiddlebury2) return readTruth(files.ground_truth, size);
   cv::Mat truth;
-  if (files.layout != SceneLayout::kMiddlebury2) {
-    truth = readDisparity(files.ground_truth);
-    requireSize(files.ground_truth, truth, size);
-    return truth;
-  }
   const cv::Mat steps = readByteMap(files.ground_truth, size);
   steps.convertTo(truth, CV_32F, 1.0 / stepsPerPixel(files, size.width));
   truth.setTo(std::numeric_limits<float>::quiet_NaN(), steps == 0);
@@ -68,8 +47,7 @@ cv::Mat readTruth(const SceneFiles& files, cv::Size size) {
 cv::Mat readNonoccluded(const SceneFiles& files, const Scene& scene) {
   if (files.layout != SceneLayout::kKitti2012 && files.layout != SceneLayout::kKitti2015)
     return readByteMap(files.nonoccluded, scene.left.size());
-  const cv::Mat seen_by_both = readDisparity(files.nonoccluded);
-  requireSize(files.nonoccluded, seen_by_both, scene.left.size());
+  const cv::Mat seen_by_both = readTruth(files.nonoccluded, scene.left.size());
   cv::Mat mask(scene.left.size(), CV_8U, cv::Scalar(0));
   if (!scene.ground_truth.empty())
     mask.setTo(128, scene.ground_truth == scene.ground_truth);  // false for NaN
@@ -82,16 +60,11 @@ cv::Mat readNonoccluded(const SceneFiles& files, const Scene& scene) {
 Scene readScene(const SceneFiles& files) {
   if (!files.problem.empty()) throw std::runtime_error(files.problem);
   Scene scene;
-  scene.left = readImage(files.left);
-  scene.right = readImage(files.right);
-  requireSize(files.right, scene.right, scene.left.size());
-  if (scene.right.type() != scene.left.type())
-    throw std::runtime_error(files.right + ": has " + describeType(scene.right) + "; the left image has " +
-                             describeType(scene.left));
-  if (!files.ground_truth.empty()) scene.ground_truth = readTruth(files, scene.left.size());
+  std::tie(scene.left, scene.right) = readViews(files.left, files.right);
+  if (!files.ground_truth.empty()) scene.ground_truth = readTruthOf(files, scene.left.size());
   if (!files.nonoccluded.empty()) scene.nonoccluded = readNonoccluded(files, scene);
   if (!files.objects.empty()) scene.objects = readByteMap(files.objects, scene.left.size());
-  if (!files.calibration.empty()) scene.calibration = readMiddleburyCalibration(files.calibration);
+  if (!files.calibration.empty()) scene.calibration = readCalibration(files.calibration, scene.left.size());
   return scene;
 }
 

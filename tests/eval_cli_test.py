@@ -14,7 +14,7 @@ import subprocess
 import tempfile
 import unittest
 
-from cli_test import COMMAND, CommandTest, read_pfm, read_png_header
+from cli_test import COMMAND, CommandTest, png, read_pfm, read_png_header
 
 METHODS = "fast,balanced"
 SIZE = (96, 64)
@@ -171,6 +171,19 @@ class Eval(DatasetTest):
                 self.assertEqual([row["scene"] for row in self.json()["scenes"]], ["Planes"] * 2)
                 self.assertIn(leaf, self.json()["problems"][0])
                 self.assertIn(b"Planes", self.bytes_of("out.html"))
+
+    def test_views_that_no_method_takes_do_not_stop_the_others(self):
+        for color_type, channels in ((4, 2), (6, 4)):  # gray and alpha; colour and alpha
+            for leaf in ("im0.png", "im1.png"):
+                with open(self.scene_file("Boxes", leaf), "wb") as file:
+                    file.write(png(96, 64, color_type, 8, b"\x80" * channels))
+            said = "Boxes/im0.png: has 4 channels of 8 bits; allowed: 1 or 3 channels of 8 or 16 bits"
+            result = self.eval("--json", "out.json", "--report", "out.html")
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(said, result.stderr)
+            self.assertEqual([row["scene"] for row in self.json()["scenes"]], ["Planes"] * 2)
+            self.assertIn(b"Planes", self.bytes_of("out.html"))
+            self.assert_refused(self.run_command("compare", "data", "-o", "s.png", "--methods", METHODS), said)
 
     def test_a_map_that_does_not_fit_its_submission_is_named(self):
         kitti = self.path("testing")

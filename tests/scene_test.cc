@@ -63,6 +63,16 @@ TEST_F(SceneFolder, RefusesWhatDoesNotFitTogether) {
   expectContains(reading(), "im1.png: cannot be read");
 }
 
+TEST_F(SceneFolder, RefusesTheCalibrationOfAnotherSize) {
+  StereoCalibration calibration = pair_.calibration;
+  calibration.height = 25;
+  put(folder_ / "calib.txt", encodeMiddleburyCalibration(calibration));
+  expectContains(reading(), "calib.txt: is for images of 32x25; the left image is 32x24");
+  calibration.width = calibration.height = 0;  // not stated
+  put(folder_ / "calib.txt", encodeMiddleburyCalibration(calibration));
+  EXPECT_TRUE(readScene(folder_ / ".").calibration);
+}
+
 TEST(DisparitiesToReach, IsTheLargestPlusFourInSixteens) {
   cv::Mat truth(2, 100, CV_32F, cv::Scalar(3));
   EXPECT_EQ(disparitiesToReach(truth), 16);
