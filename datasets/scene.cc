@@ -27,10 +27,11 @@ int stepsPerPixel(const SceneFiles& files, int width) {
   constexpr std::array<std::string_view, 7> kPlanar = {"barn1",  "barn2",    "bull", "map",
                                                        "poster", "sawtooth", "venus"};
   constexpr double kWidth2003 = 1800, kWidth2005 = 1300;
-  const std::string scene = lowerCase(fs::path(files.left).parent_path().filename().string());
+  const fs::path left = fs::absolute(files.left).lexically_normal();  // from within, its folder is "."
+  const std::string scene = lowerCase(left.parent_path().filename().string());
   if (scene == "tsukuba") return 16;
   if (std::find(kPlanar.begin(), kPlanar.end(), scene) != kPlanar.end()) return 8;
-  const bool views = fs::path(files.left).stem() == "view1";
+  const bool views = left.stem() == "view1";
   const double reduction = (views ? kWidth2005 : kWidth2003) / width;
   return std::clamp(static_cast<int>(std::lround(reduction)), 1, views ? 3 : 4);
 }

@@ -130,6 +130,22 @@ TEST_F(Tree, EightBitTruthIsScaledAsItsSetSaysItIs) {
   }
 }
 
+TEST_F(Tree, EightBitTruthIsScaledAlikeFromWithinItsFolder) {
+  image("venus/im2.png", gray(9));
+  image("venus/im6.png", gray(9));
+  image("venus/disp2.png", gray(48));
+  fs::create_directory(root_ / "venus/below");
+  const fs::path here = fs::current_path();
+  for (const auto& [folder, root] : {std::pair{"venus", "."}, std::pair{"venus/below", ".."}}) {
+    fs::current_path(root_ / folder);
+    const auto scenes = findScenes({root});
+    const Scene scene = readScene(scenes.front());
+    fs::current_path(here);
+    EXPECT_EQ(namesOf(scenes), Names{"venus"});
+    EXPECT_FLOAT_EQ(scene.ground_truth.at<float>(1, 1), 48 / 8.0f) << root;
+  }
+}
+
 TEST_F(Tree, KittiFrames) {
   cv::Mat truth(24, 32, CV_32F, cv::Scalar(7.5)), both = truth.clone();
   truth.at<float>(0, 0) = both.at<float>(0, 0) = both.at<float>(0, 1) = NAN;
