@@ -193,6 +193,8 @@ TEST(Summary, TimesAndMeans) {
   EXPECT_THROW(weightedMean(values, std::vector<double>{1, 2}), std::invalid_argument);
   EXPECT_EQ(middleburyWeight("Shelves"), 0.5);
   EXPECT_EQ(middleburyWeight("Teddy"), 1);
+  EXPECT_EQ(middleburyWeight("MiddEval3/trainingQ/Vintage"), 0.5);
+  EXPECT_EQ(middleburyWeight("Vintage/Teddy"), 1);
 }
 
 TEST(CoverageCurve, FollowsTheConfidence) {

@@ -107,7 +107,8 @@ double secondsPerGigadisparity(double seconds, cv::Size size, int num_disparitie
 /// sum(w v) / sum(w) over the values that are not NaN. `weights`: empty (all 1), or one per value.
 double weightedMean(std::span<const double> values, std::span<const double> weights = {});
 /// The weight of a scene in the averages of Middlebury v3's training table: 0.5 for the five most difficult
-/// ones (PianoL, Playroom, Playtable, Shelves, Vintage), 1 for any other name.
+/// ones (PianoL, Playroom, Playtable, Shelves, Vintage), 1 for any other name. Folders before the name, as in
+/// "trainingQ/Shelves", make no difference.
 double middleburyWeight(std::string_view scene);
 
 /// How well a confidence tells right from wrong: pixels are dropped, least confident first, and the share of
