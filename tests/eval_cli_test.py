@@ -139,6 +139,38 @@ class Eval(DatasetTest):
             self.assertTrue(os.path.exists(self.path("maps", "balanced", path)), path)
         self.assertRegex(self.bytes_of("maps", "balanced", "low_res_two_view", "Planes.txt"), rb"^runtime [0-9.e-]+\n$")
 
+    def test_kitti_counts_outliers_of_the_filled_map_and_of_non_occluded_pixels(self):
+        kitti, truth = self.path("kitti", "training"), 8
+        for part in ("image_2", "image_3", "disp_occ_0", "disp_noc_0"):
+            os.makedirs(os.path.join(kitti, part))
+        shutil.copy(self.left, os.path.join(kitti, "image_2", "000000_10.png"))
+        shutil.copy(self.right, os.path.join(kitti, "image_3", "000000_10.png"))
+        with open(os.path.join(kitti, "disp_occ_0", "000000_10.png"), "wb") as file:
+            file.write(png(96, 64, 0, 16, struct.pack(">H", 256 * truth)))
+        for path in (os.path.join(kitti, "disp_noc_0", "000000_10.png"), "seen.pfm"):
+            self.assert_accepted(self.compute("-o", path, "--mode", "sparse"))
+        os.mkdir(self.path("listed"))
+        with open(self.path("listed", "manifest.csv"), "w", encoding="utf-8") as file:
+            file.write(f"name,left,right,max_disparity\npair,{self.left},{self.right},16\n")
+        result = self.run_command("eval", "kitti", "listed", "--methods", "fast", "--mode", "sparse", "--json",
+                                  "out.json", "--submission", "maps")
+        self.assert_accepted(result)
+        width, height, found = self.pfm("maps/fast/pair/disp0fast_s.pfm")
+        seen = self.pfm("seen.pfm")[2]
+        wrong = []
+        for y in range(height):
+            row = found[y * width:(y + 1) * width]
+            self.assertTrue(any(map(math.isfinite, row)))
+            for x in range(width):
+                nearest = [next(filter(math.isfinite, side), math.inf) for side in (row[x::-1], row[x:])]
+                wrong.append(abs(min(nearest) - truth) > 3)
+        figures = self.json()["scenes"][0]
+        self.assertAlmostEqual(figures["all"]["D1-all"], 100 * sum(wrong) / len(wrong))
+        wrong_seen = [w for w, d in zip(wrong, seen) if math.isfinite(d)]
+        self.assertAlmostEqual(figures["nocc"]["D1-all"], 100 * sum(wrong_seen) / len(wrong_seen))
+        self.assertNotAlmostEqual(figures["nocc"]["D1-all"], figures["all"]["D1-all"])
+        self.assertGreater(figures["all"]["invalid"], 0)
+
     def test_scenes_without_truth_run_for_a_submission_only(self):
         os.remove(self.scene_file("Boxes", "disp0GT.pfm"))
         result = self.eval("--submission", "maps", "--json", "out.json")

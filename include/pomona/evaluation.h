@@ -92,7 +92,9 @@ struct KittiErrors {
 };
 
 /// `object_map`: CV_8U, 0 background, else a vehicle (obj_map of the training set); empty: all is background.
-KittiErrors kittiErrors(const cv::Mat& disparity, const cv::Mat& truth, const cv::Mat& object_map = {});
+/// With a mask of the non-occluded pixels: the benchmark's D1-noc, else its D1-occ.
+KittiErrors kittiErrors(const cv::Mat& disparity, const cv::Mat& truth, const cv::Mat& object_map = {},
+                        const cv::Mat& mask = {});
 
 /// Fills each hole of the CV_32F map with the smaller, so farther, of the nearest disparities left and right
 /// of it in its row: what is hidden in one view is background. Rows without any disparity take the row above,
