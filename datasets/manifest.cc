@@ -73,7 +73,7 @@ SceneFiles sceneOf(const fs::path& manifest, const std::map<std::string, std::st
   };
   SceneFiles files;
   files.layout = SceneLayout::kManifest;
-  files.split = fs::absolute(manifest).parent_path().filename().string();
+  files.folder = fs::absolute(manifest).lexically_normal().parent_path().string();
   files.left = path("left");
   files.right = path("right");
   files.ground_truth = path("gt");

@@ -88,7 +88,7 @@ SceneFiles middleburyFiles(const std::string& folder) {
   };
   SceneFiles files;
   files.name = path.parent_path().filename().string();
-  files.split = path.parent_path().parent_path().filename().string();
+  files.folder = path.parent_path().parent_path().string();
   files.left = pathOf("im0.png");
   files.right = pathOf("im1.png");
   files.ground_truth = ifThere("disp0GT.pfm");

@@ -58,7 +58,7 @@ TEST_F(Tree, FindsMiddleburyScenesAtAnyDepthInOrder) {
   file("a/notes.txt", "nothing");
   const auto scenes = found();
   EXPECT_EQ(namesOf(scenes), (Names{"Zebra", "Art", "Piano"}));
-  EXPECT_EQ(scenes[1].split, "trainingQ");
+  EXPECT_EQ(scenes[1].split(), "trainingQ");
   EXPECT_EQ(scenes[1].layout, SceneLayout::kMiddlebury3);
   const Scene scene = readScene(scenes[1]);
   EXPECT_EQ(cv::norm(scene.left, pair_.left.image, cv::NORM_INF), 0);
@@ -66,14 +66,28 @@ TEST_F(Tree, FindsMiddleburyScenesAtAnyDepthInOrder) {
   EXPECT_EQ(namesOf(found("a/Zebra")), Names{"Zebra"});  // a scene can be named itself, too
 }
 
-TEST_F(Tree, NamesAreUnique) {
-  middleburyScene("trainingQ/Art");
-  middleburyScene("trainingH/Art");
-  middleburyScene("trainingH/Piano");
-  EXPECT_EQ(namesOf(found()), (Names{"trainingH/Art", "Piano", "trainingQ/Art"}));
-  middleburyScene("other/trainingQ/Art");
-  const auto names = namesOf(found());
-  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), 4u);
+TEST_F(Tree, NamesOfTwoFoldersAreToldApartByAsFewFoldersAsItTakes) {
+  middleburyScene("v3/trainingQ/Art");
+  middleburyScene("v3/trainingH/Art");
+  middleburyScene("v3/trainingH/Piano");
+  EXPECT_EQ(namesOf(found()), (Names{"trainingH/Art", "trainingH/Piano", "trainingQ/Art"}));
+  EXPECT_EQ(namesOf(found("v3/trainingH")), (Names{"Art", "Piano"}));
+  for (const char* view : {"2012/training/image_0/", "2012/training/image_1/", "2015/training/image_2/",
+                           "2015/training/image_3/"}) {
+    image(view + std::string("000000_10.png"), gray(1));
+    if (view[3] == '5') image(view + std::string("000001_10.png"), gray(1));
+  }
+  EXPECT_EQ(namesOf(found()),
+            (Names{"2012/training/000000_10", "2015/training/000000_10", "2015/training/000001_10",
+                   "trainingH/Art", "trainingH/Piano", "trainingQ/Art"}));
+}
+
+TEST_F(Tree, ANameThatAManifestUsesAgainGetsANumber) {
+  const std::string pair = "im0.png,im1.png\n";
+  file("a/manifest.csv", "name,left,right\nx," + pair + "y," + pair + "x," + pair + "x-2," + pair);
+  file("b/manifest.csv", "left,right\n1/im0.png,1/im1.png\n2/im0.png,2/im1.png\n");
+  EXPECT_EQ(namesOf(found()), (Names{"x", "y", "x-2", "x-2-2", "im0", "im0-2"}));
+  EXPECT_EQ(namesOf(findScenes({root_ / "a"})), (Names{"x", "y", "x-2", "x-2-2"}));
 }
 
 TEST_F(Tree, ALoopOfLinksEnds) {
@@ -166,7 +180,7 @@ TEST_F(Tree, KittiFrames) {
   const auto scenes = found();
   ASSERT_EQ(namesOf(scenes), (Names{"000003_10", "000000_10", "000007_10"}));
   EXPECT_EQ(scenes[0].layout, SceneLayout::kKitti2012);
-  EXPECT_EQ(scenes[0].split, "testing");
+  EXPECT_EQ(scenes[0].split(), "testing");
   const Scene test = readScene(scenes[0]);
   EXPECT_TRUE(test.ground_truth.empty());
   EXPECT_EQ(test.left.at<std::uint8_t>(0, 0), 1);  // colour comes first where both are there
