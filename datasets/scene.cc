@@ -42,6 +42,8 @@ cv::Mat readTruthOf(const SceneFiles& files, cv::Size size) {
   const cv::Mat steps = readByteMap(files.ground_truth, size);
   steps.convertTo(truth, CV_32F, 1.0 / stepsPerPixel(files, size.width));
   truth.setTo(std::numeric_limits<float>::quiet_NaN(), steps == 0);
+  if (cv::countNonZero(steps) == 0)
+    throw std::runtime_error(files.ground_truth + ": holds no known disparity");
   return truth;
 }
 
@@ -76,6 +78,7 @@ int disparitiesToReach(const cv::Mat& ground_truth) {
     for (int x = 0; x < ground_truth.cols; ++x)
       largest = std::fmax(largest, ground_truth.at<float>(y, x));  // fmax passes over NaN
   if (largest < 0) return 0;
+  largest = std::fmin(largest, static_cast<float>(ground_truth.cols));
   const int needed = static_cast<int>(std::ceil(largest)) + kMargin;
   return std::min((needed + kMultiple - 1) / kMultiple * kMultiple, ground_truth.cols);
 }

@@ -1,5 +1,7 @@
 #include "datasets/scene_parts.h"
 
+#include <cmath>
+#include <sstream>
 #include <stdexcept>
 
 #include "datasets/disparity_file.h"
@@ -27,6 +29,13 @@ cv::Mat readView(const std::string& path) {
   return view;
 }
 
+[[noreturn]] void failOnDisparity(const std::string& path, int x, int y, float d, float most) {
+  std::ostringstream text;
+  text << path << ": disparity at x " << x << ", y " << y << " is " << d << "; allowed: up to " << most
+       << ", 4 times the width";
+  throw std::runtime_error(text.str());
+}
+
 }  // namespace
 
 std::pair<cv::Mat, cv::Mat> readViews(const std::string& left_path, const std::string& right_path) {
@@ -49,6 +58,15 @@ cv::Mat readByteMap(const std::string& path, cv::Size left) {
 cv::Mat readTruth(const std::string& path, cv::Size left) {
   cv::Mat truth = readDisparity(path);
   requireSize(path, truth.size(), left);
+  const float most = 4.0f * static_cast<float>(left.width);
+  bool any = false;
+  for (int y = 0; y < truth.rows; ++y)
+    for (int x = 0; x < truth.cols; ++x) {
+      const float d = truth.at<float>(y, x);
+      any |= !std::isnan(d);
+      if (std::abs(d) > most) failOnDisparity(path, x, y, d, most);
+    }
+  if (!any) throw std::runtime_error(path + ": holds no known disparity");
   return truth;
 }
 

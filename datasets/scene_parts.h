@@ -13,10 +13,10 @@ namespace pomona {
 /// Left and right view: of equal size and type, 8 or 16 bits, 1 or 3 channels.
 std::pair<cv::Mat, cv::Mat> readViews(const std::string& left_path, const std::string& right_path);
 
-/// CV_8U of size `left`.
+/// One channel of 8 bits, of size `left`.
 cv::Mat readByteMap(const std::string& path, cv::Size left);
 
-/// readDisparity(), of size `left`.
+/// readDisparity(), of size `left`, with known pixels, all of them within four image widths of zero.
 cv::Mat readTruth(const std::string& path, cv::Size left);
 
 /// The calibration; width and height, where it states them, are those of `left`.
