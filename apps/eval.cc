@@ -85,6 +85,8 @@ class Table {
   explicit Table(const std::vector<SceneFiles>& scenes, const std::vector<NamedMethod>& methods) {
     for (const SceneFiles& scene : scenes) scene_width_ = std::max(scene_width_, scene.name.size());
     for (const NamedMethod& method : methods) method_width_ = std::max(method_width_, method.name.size());
+  }
+  void begin() const {
     std::string line = cells("scene", "method");
     for (const FigureColumn& column : figureColumns())
       if (column.in_terminal) line += padded(column.name);
@@ -114,7 +116,7 @@ class Table {
 /// One run over all scenes. What goes wrong with a scene or method is noted, said, and passed over.
 class Evaluation {
  public:
-  Evaluation(const EvalArguments& arguments, std::vector<SceneFiles> scenes)
+  Evaluation(const EvalArguments& arguments, std::vector<SceneFiles> scenes, std::string remark)
       : arguments_(arguments),
         methods_(makeMethods(arguments.methods)),
         scenes_(std::move(scenes)),
@@ -124,11 +126,15 @@ class Evaluation {
     for (const NamedMethod& method : methods_) record_.methods.push_back(method.name);
     record_.region = arguments.mask == "all" ? Region::kAll : Region::kNonoccluded;
     record_.weighted = arguments.weighted;
+    if (!remark.empty()) record_.remarks.push_back(std::move(remark));
   }
 
   void run() {
+    prepareSubmission();
+    table_.begin();
     for (const SceneFiles& files : scenes_) measureScene(files);
     progress_.clear();
+    for (const std::string& remark : record_.remarks) std::cerr << "pomona: note: " << remark << '\n';
     if (!record_.measurements.empty())
       for (const std::string& method : record_.methods)
         table_.add("mean", method, record_.meanOfMethod(method, record_.region));
@@ -139,6 +145,16 @@ class Evaluation {
   }
 
  private:
+  // Before hours of matching, not after.
+  void prepareSubmission() const {
+    const std::string& folder = arguments_.submission;
+    if (folder.empty()) return;
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) throw std::runtime_error("--submission is '" + folder + "': " + error.message());
+    checkOutputPath((fs::path(folder) / "any").string());
+  }
+
   void measureScene(const SceneFiles& files) {
     progress_.show(files.name);
     Scene scene;
@@ -146,8 +162,6 @@ class Evaluation {
     try {
       const MutedErrorStream muted;
       scene = readScene(files);
-      if (scene.ground_truth.empty() && arguments_.submission.empty())
-        throw std::runtime_error("there is no ground truth; --submission would run it all the same");
       num_disparities = disparitiesToSearch(files, scene);
       if (!arguments_.report.empty()) report_.addScene(files.name, scene, num_disparities);
     } catch (const std::exception& error) {
@@ -156,6 +170,7 @@ class Evaluation {
       progress_.stepsDone(static_cast<int>(methods_.size()));
       return;
     }
+    remarkOnRange(files, scene);
     const std::size_t problems_before = record_.problems.size();
     for (const NamedMethod& method : methods_) {
       progress_.show(files.name + ", " + method.name);
@@ -169,14 +184,26 @@ class Evaluation {
     failed_scenes_ += record_.problems.size() > problems_before;
   }
 
+  // Scores are clipped to ndisp, so one that is too small makes good maps look bad.
+  void remarkOnRange(const SceneFiles& files, const Scene& scene) {
+    if (!scene.calibration || scene.ground_truth.empty()) return;
+    const int ndisp = scene.calibration->stereo.num_disparities;
+    double largest = 0;
+    cv::minMaxLoc(scene.ground_truth, nullptr, &largest, nullptr, nullptr,
+                  scene.ground_truth == scene.ground_truth);
+    if (ndisp > 0 && largest > ndisp)
+      record_.remarks.push_back(files.calibration + ": ndisp is " + std::to_string(ndisp) +
+                                ", to which disparities are clipped; the truth reaches " + shown(largest, 2));
+  }
+
   void measure(const SceneFiles& files, const Scene& scene, const NamedMethod& method, int num_disparities) {
     const MethodOptions options = methodOptions(arguments_.methods, num_disparities);
     const MethodResult result = method.method->run(scene.left, scene.right, options);
-    if (!arguments_.submission.empty()) submit(files, method.name, options.mode, result);
     record_.measurements.push_back(score(files, scene, method.name, num_disparities, result));
     if (!arguments_.report.empty()) report_.addMap(method.name, result.disparity);
     progress_.clear();
     table_.add(files.name, method.name, figuresOf(record_.measurements.back(), record_.region));
+    if (!arguments_.submission.empty()) submit(files, method.name, options.mode, result);
   }
 
   void submit(const SceneFiles& files, const std::string& method, OutputMode mode,
@@ -216,9 +243,31 @@ class Evaluation {
   std::size_t failed_scenes_ = 0;
 };
 
+// Takes out the scenes that cannot be scored, unless their maps are wanted; says so if there are any.
+std::string setAsideUnknown(std::vector<SceneFiles>& scenes, bool wanted) {
+  constexpr std::size_t kNamed = 3;
+  const auto lacksTruth = [](const SceneFiles& files) {
+    return files.ground_truth.empty() && files.problem.empty();
+  };
+  std::size_t count = 0;
+  std::string names;
+  for (const SceneFiles& files : scenes)
+    if (lacksTruth(files) && ++count <= kNamed) names += (names.empty() ? "" : ", ") + files.name;
+  if (count == 0) return "";
+  if (!wanted) std::erase_if(scenes, lacksTruth);
+  if (scenes.empty())
+    throw std::runtime_error("none of the " + std::to_string(count) +
+                             " scenes has ground truth; --submission would match them all the same");
+  return std::to_string(count) + (count == 1 ? " scene has" : " scenes have") +
+         " no ground truth: " + (wanted ? "matched, not scored" : "passed over; --submission would match") +
+         " (" + names + (count > kNamed ? ", ...)" : ")");
+}
+
 void evaluate(const EvalArguments& arguments) {
   checkOutputs(arguments);
-  Evaluation(arguments, findScenes(arguments.roots)).run();
+  std::vector<SceneFiles> scenes = findScenes(arguments.roots);
+  std::string remark = setAsideUnknown(scenes, !arguments.submission.empty());
+  Evaluation(arguments, std::move(scenes), std::move(remark)).run();
 }
 
 }  // namespace

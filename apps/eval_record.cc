@@ -104,6 +104,7 @@ std::string jsonOf(const EvalRecord& record) {
     for (const Region region : kRegions)
       root["means"][method][name(region)] = namedFigures(record.meanOfMethod(method, region));
   root["problems"] = record.problems;
+  root["remarks"] = record.remarks;
   return root.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -16,6 +16,7 @@ struct EvalRecord {
   std::vector<std::string> methods;
   std::vector<Measurement> measurements;  ///< scene by scene, within a scene in the order of `methods`
   std::vector<std::string> problems;      ///< what could not be measured, and why
+  std::vector<std::string> remarks;       ///< what else to know about the figures
   Region region = Region::kAll;           ///< what the table and the report show first
   bool weighted = false;                  ///< means use Middlebury's weights
 
@@ -28,7 +29,8 @@ std::string csvOf(const EvalRecord& record);
 
 /// {"facts": {...}, "columns": {name: description}, "scenes": [{"scene", "method", "width", "height",
 /// "num_disparities", "all": {column: value}, "nocc": {...}, "curve": [[coverage, wrong, oracle]]}], "means":
-/// {method: {"all": {...}, "nocc": {...}}}, "problems": [...]}. Figures that are not to be had are left out.
+/// {method: {"all": {...}, "nocc": {...}}}, "problems": [...], "remarks": [...]}. Figures that are not to be
+/// had are left out.
 std::string jsonOf(const EvalRecord& record);
 
 }  // namespace pomona

@@ -8,6 +8,7 @@ import json
 import math
 import os
 import pty
+import re
 import shutil
 import struct
 import subprocess
@@ -154,7 +155,7 @@ class Eval(DatasetTest):
             file.write(f"name,left,right,max_disparity\npair,{self.left},{self.right},16\n")
         result = self.run_command("eval", "kitti", "listed", "--methods", "fast", "--mode", "sparse", "--json",
                                   "out.json", "--submission", "maps")
-        self.assert_accepted(result)
+        self.assertEqual(result.returncode, 0, result.stderr)
         width, height, found = self.pfm("maps/fast/pair/disp0fast_s.pfm")
         seen = self.pfm("seen.pfm")[2]
         wrong = []
@@ -174,13 +175,29 @@ class Eval(DatasetTest):
     def test_scenes_without_truth_run_for_a_submission_only(self):
         os.remove(self.scene_file("Boxes", "disp0GT.pfm"))
         result = self.eval("--submission", "maps", "--json", "out.json")
-        self.assert_accepted(result)
+        said = "pomona: note: 1 scene has no ground truth: "
+        self.assertEqual((result.returncode, result.stderr), (0, said + "matched, not scored (Boxes)\n"))
         self.assertTrue(os.path.exists(self.path("maps/fast/trainingQ/Boxes/disp0fast.pfm")))
         row = self.json()["scenes"][0]
         self.assertEqual((row["scene"], set(row["all"])), ("Boxes", {"ms", "s/MP", "s/GD"}))
+        result = self.eval("--json", "out.json")
+        said += "passed over; --submission would match (Boxes)\n"
+        self.assertEqual((result.returncode, result.stderr), (0, said))
+        self.assertEqual([row["scene"] for row in self.json()["scenes"]], ["Planes"] * 2)
+        self.assertEqual(["pomona: note: " + remark + "\n" for remark in self.json()["remarks"]], [said])
+        os.remove(self.scene_file("Planes", "disp0GT.pfm"))
+        self.assert_refused(self.eval(), "none of the 2 scenes has ground truth; --submission would")
+
+    def test_a_range_that_is_too_small_for_the_truth_is_remarked(self):
+        calib = self.scene_file("Boxes", "calib.txt")
+        with open(calib, encoding="utf-8") as file:
+            text = file.read()
+        self.assertIn("ndisp=", text)
+        with open(calib, "w", encoding="utf-8") as file:
+            file.write(re.sub(r"ndisp=\d+", "ndisp=3", text))
         result = self.eval()
-        self.assertEqual(result.returncode, 1)
-        self.assertIn("Boxes: there is no ground truth", result.stderr)
+        self.assertEqual(result.returncode, 0)
+        self.assertRegex(result.stderr, r"^pomona: note: .*Boxes/calib.txt: ndisp is 3, .* truth reaches [0-9.]+\n$")
 
     def test_a_broken_scene_is_named_and_passed_over(self):
         breakages = {"im1.png": lambda path: os.remove(path),
@@ -226,9 +243,15 @@ class Eval(DatasetTest):
         self.assertEqual(wide.returncode, 0, wide.stderr)
         shutil.copy(self.path("wide", "im0.png"), os.path.join(kitti, "image_2", "000000_10.png"))
         shutil.copy(self.path("wide", "im1.png"), os.path.join(kitti, "image_3", "000000_10.png"))
-        result = self.run_command("eval", "testing", "--methods", "fast", "--submission", "maps")
+        result = self.run_command("eval", "testing", "--methods", "fast", "--submission", "maps", "--json", "out.json")
         self.assertEqual(result.returncode, 1)
         self.assertIn("000000_10, fast: disparity at x", result.stderr)
+        self.assertEqual([row["scene"] for row in self.json()["scenes"]], ["000000_10"])  # measured all the same
+
+    def test_a_submission_folder_that_cannot_be_is_refused_before_any_work(self):
+        result = self.eval("--submission", self.truth + "/maps", "--json", "out.json")
+        self.assert_refused(result, "disp0GT.pfm/maps': Not a directory")
+        self.assertFalse(os.path.exists(self.path("out.json")))
 
     def test_bad_arguments(self):
         before = sorted(os.listdir(self.folder))

@@ -418,8 +418,9 @@ function setUp() {
     byId("metric").append(make("option", {value: column.name, selected: column.name === shown.metric}, column.name));
   byId("metric").addEventListener("change", (event) => { shown.metric = event.target.value; showOverview(); });
   byId("every-column").addEventListener("change", (event) => { shown.everyColumn = event.target.checked; showOverview(); });
-  for (const problem of record.problems) byId("problems").querySelector("ul").append(make("li", {}, problem));
-  byId("problems").hidden = !record.problems.length;
+  const remarks = [...record.problems, ...record.remarks];
+  byId("problems").querySelector("ul").append(...remarks.map((remark) => make("li", {}, remark)));
+  byId("problems").hidden = !remarks.length;
   for (const {name, value} of record.facts) byId("facts").append(make("dt", {}, name), make("dd", {}, value));
   for (const column of record.columns) byId("columns").append(make("dt", {}, column.name), make("dd", {}, column.description));
   addEventListener("hashchange", show);

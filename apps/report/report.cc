@@ -117,9 +117,9 @@ Json figuresOfScene(const std::string& scene, const EvalRecord& record) {
 
 // What is common to all scenes.
 Json generalPart(const EvalRecord& record) {
-  Json root = {{"region", name(record.region)}, {"methods", record.methods},   {"peers", Json::array()},
-               {"columns", Json::array()},      {"facts", Json::array()},      {"problems", record.problems},
-               {"palettes", palettes()},        {"errorLimit", kErrorLimit_px}};
+  Json root = {{"region", name(record.region)}, {"methods", record.methods}, {"peers", Json::array()},
+               {"columns", Json::array()},      {"facts", Json::array()},    {"problems", record.problems},
+               {"remarks", record.remarks},     {"palettes", palettes()},    {"errorLimit", kErrorLimit_px}};
   for (const std::string& method : record.methods)
     if (method.starts_with("opencv")) root["peers"].push_back(method);
   for (const FigureColumn& column : figureColumns())
