@@ -110,7 +110,7 @@ class Table {
     method.resize(method_width_, ' ');
     return scene + method;
   }
-  std::size_t scene_width_ = 5, method_width_ = 6;
+  std::size_t scene_width_ = std::string_view("mean of 99").size(), method_width_ = 6;
 };
 
 /// One run over all scenes. What goes wrong with a scene or method is noted, said, and passed over.
@@ -137,7 +137,7 @@ class Evaluation {
     for (const std::string& remark : record_.remarks) std::cerr << "pomona: note: " << remark << '\n';
     if (!record_.measurements.empty())
       for (const std::string& method : record_.methods)
-        table_.add("mean", method, record_.meanOfMethod(method, record_.region));
+        table_.add(meanName(method), method, record_.meanOfMethod(method, record_.region));
     writeResults();
     if (!record_.problems.empty())
       throw std::runtime_error(std::to_string(failed_scenes_) + " of " + std::to_string(scenes_.size()) +
@@ -145,6 +145,11 @@ class Evaluation {
   }
 
  private:
+  std::string meanName(const std::string& method) const {
+    const int count = record_.scenesBehindMean(method, record_.region);
+    return count == static_cast<int>(scenes_.size()) ? "mean" : "mean of " + std::to_string(count);
+  }
+
   // Before hours of matching, not after.
   void prepareSubmission() const {
     const std::string& folder = arguments_.submission;

@@ -99,7 +99,31 @@ class Eval(DatasetTest):
         os.remove(self.scene_file("Boxes", "mask0nocc.png"))
         table = [line.split() for line in self.eval("--mask", "nocc").stdout.splitlines()]
         self.assertEqual(table[1][2], "-")
-        self.assertEqual(table[5][2], table[3][2])  # the mean over the scenes that have the figure
+        self.assertEqual(table[5][:3], ["mean", "of", "1"])  # over the scenes that have the figure
+        self.assertEqual(table[5][4], table[3][2])
+
+    def test_means_tell_how_many_scenes_are_behind_them(self):
+        os.remove(self.scene_file("Boxes", "mask0nocc.png"))
+        self.assert_accepted(self.eval("--json", "out.json"))
+        means = self.json()["means"]["fast"]
+        self.assertEqual((means["all"]["scenes"], means["nocc"]["scenes"]), (2, 1))
+
+    def test_subpixel_bins_are_those_of_the_maps(self):
+        self.assert_accepted(self.eval("--json", "out.json", "--submission", "maps", methods="fast"))
+        truth = read_pfm(self.scene_file("Boxes", "disp0GT.pfm"))[2]
+        found = self.pfm("maps/fast/trainingQ/Boxes/disp0fast.pfm")[2]
+        bins = [[] for _ in range(10)]
+        for d, t in zip(found, truth):
+            if math.isfinite(t) and abs(d - t) <= 1:
+                bins[min(9, int(10 * (t - math.floor(t))))].append(d - t)
+        written = self.json()["scenes"][0]["subpixel"]
+        self.assertEqual([count for count, _, _ in written], [len(errors) for errors in bins])
+        for errors, (count, bias, rms) in zip(bins, written):
+            if count:
+                self.assertAlmostEqual(bias, sum(errors) / count, places=6)
+                self.assertAlmostEqual(rms, math.sqrt(sum(e * e for e in errors) / count), places=6)
+            else:
+                self.assertIsNone(bias)
 
     def test_times_are_those_of_the_submission(self):
         self.assert_accepted(self.eval("--json", "out.json", "--submission", "maps"))
