@@ -144,6 +144,18 @@ TEST_P(EveryMethod, RefusesWhatCannotBeMatched) {
     EXPECT_THROW(method->run(left, left, o), std::invalid_argument);
 }
 
+TEST_P(EveryMethod, TakesTheSmallestViews) {
+  for (const cv::Size size : {cv::Size(1, 1), cv::Size(7, 1), cv::Size(1, 7)}) {
+    MethodOptions o = options(OutputMode::kDense);
+    o.num_disparities = 1;
+    const cv::Mat view(size, CV_8UC3, cv::Scalar::all(90));
+    const MethodResult result = makeMethod(GetParam())->run(view, view, o);
+    EXPECT_EQ(result.disparity.size(), size);
+    if (isOpenCv()) continue;  // may have nothing to fill from
+    EXPECT_EQ(cv::countNonZero(result.disparity != result.disparity), 0) << size;
+  }
+}
+
 TEST_P(EveryMethod, OneObjectServesPairAfterPair) {
   const auto method = makeMethod(GetParam());
   const MethodResult first =
