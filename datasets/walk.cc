@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "datasets/input_file.h"
+
 namespace pomona {
 namespace {
 
@@ -196,7 +198,7 @@ void tellFoldersApart(std::vector<SceneFiles>& scenes) {
     if (alike.empty()) return;
     for (SceneFiles& scene : scenes)
       if (const fs::path leaf = above[scene.folder].filename(); alike.contains(scene.folder) && !leaf.empty())
-        scene.name = leaf.string() + "/" + scene.name;
+        scene.name = printable(leaf.string()) + "/" + scene.name;
     for (const std::string& folder : alike) above[folder] = above[folder].parent_path();
   }
 }
@@ -211,6 +213,7 @@ std::vector<SceneFiles> findScenes(const std::vector<std::string>& roots) {
       throw std::runtime_error(root +
                                ": no scene found (of Middlebury, KITTI or ETH3D, or in a manifest.csv)");
   }
+  for (SceneFiles& scene : walker.scenes) scene.name = printable(scene.name);
   numberWithinFolders(walker.scenes);
   tellFoldersApart(walker.scenes);
   return std::move(walker.scenes);

@@ -90,6 +90,12 @@ TEST_F(Tree, ANameThatAManifestUsesAgainGetsANumber) {
   EXPECT_EQ(namesOf(findScenes({root_ / "a"})), (Names{"x", "y", "x-2", "x-2-2"}));
 }
 
+TEST_F(Tree, NamesHoldNoControlCharacters) {
+  middleburyScene("v3/a\x1b[2Jb\n");
+  middleburyScene("v3/a\x1b[2Jb\t");
+  EXPECT_EQ(namesOf(found()), (Names{"a?[2Jb?", "a?[2Jb?-2"}));
+}
+
 TEST_F(Tree, ALoopOfLinksEnds) {
   middleburyScene("set/Art");
   fs::create_directory_symlink("..", root_ / "set/up");
@@ -246,6 +252,17 @@ TEST_F(Tree, AManifestWithoutColumnNamesIsAProblemOfItsFolderOnly) {
   ASSERT_EQ(namesOf(scenes), (Names{"bad", "good", "odd"}));
   expectContains(reading(scenes[0]), "bad/manifest.csv: line 1: expected the names of the columns");
   expectContains(reading(scenes[2]), "odd/manifest.csv: line 1: unknown column 'depth'");
+}
+
+TEST_F(Tree, ManifestsAsSpreadsheetsWriteThem) {
+  file("bom/manifest.csv", "\xef\xbb\xbfleft,right\n1/im0.png,1/im1.png\n");
+  file("twice/manifest.csv", "left,right,gt,left\n");
+  file("open/manifest.csv", "left,right\na.png,b.png\n\"c.png,d.png\ne.png,f.png\n");
+  const auto scenes = found();
+  ASSERT_EQ(namesOf(scenes), (Names{"im0", "open", "twice"}));
+  EXPECT_EQ(scenes[0].left, (root_ / "./bom/1/im0.png"));
+  expectContains(reading(scenes[1]), "open/manifest.csv: line 3: a quote that begins here never ends");
+  expectContains(reading(scenes[2]), "twice/manifest.csv: line 1: a second column 'left'");
 }
 
 TEST_F(Tree, NothingToWalk) {
