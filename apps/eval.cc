@@ -147,7 +147,8 @@ class Evaluation {
  private:
   std::string meanName(const std::string& method) const {
     const int count = record_.scenesBehindMean(method, record_.region);
-    return count == static_cast<int>(scenes_.size()) ? "mean" : "mean of " + std::to_string(count);
+    return count == 0 || count == static_cast<int>(scenes_.size()) ? "mean"
+                                                                   : "mean of " + std::to_string(count);
   }
 
   // Before hours of matching, not after.
@@ -224,7 +225,7 @@ class Evaluation {
   }
 
   void note(std::string problem) {
-    std::replace(problem.begin(), problem.end(), '\n', ' ');
+    problem = printable(std::move(problem));
     progress_.clear();
     std::cerr << "pomona: error: " << problem << '\n';
     record_.problems.push_back(std::move(problem));
@@ -288,12 +289,17 @@ void addEval(CLI::App& app) {
                    "Pixels that count in the table: all (default) or nocc, seen by both cameras")
       ->check(CLI::IsMember({"all", "nocc"}));
   verb->add_flag("--weighted", arguments->weighted, "Means with the weights of Middlebury v3's table");
-  verb->add_option("--json", arguments->json, "Write all figures (.json)");
-  verb->add_option("--csv", arguments->csv, "Write all figures (.csv)");
-  verb->add_option("--report", arguments->report, "Write a page with tables, curves and maps (.html)");
-  verb->add_option(
-      "--submission", arguments->submission,
-      "Write the maps below this folder as the benchmarks want them; runs scenes without truth too");
+  const auto path = [&](const char* option, std::string& value, const char* description) {
+    verb->add_option(option, value, description)->check([](const std::string& text) {
+      return text.empty() ? std::string("is empty; allowed: a path") : std::string();
+    });
+  };
+  path("--json", arguments->json, "Write all figures (.json)");
+  path("--csv", arguments->csv, "Write all figures (.csv)");
+  path("--report", arguments->report, "Write a page with tables, curves and maps (.html)");
+  path("--submission", arguments->submission,
+       "Write the maps below this folder as the benchmarks want them; runs scenes without truth too");
+  verb->footer("Errors count in pixels of the given images, so bad-2 at quarter size is bad-8 at full size.");
   verb->callback([arguments] { evaluate(*arguments); });
 }
 

@@ -286,6 +286,7 @@ class Eval(DatasetTest):
                 ("no/out.html", ("data", "--report", "no/out.html"), 1), ("--threads is -1", ("data", "--threads", "-1"), 1),
                 ("which is no folder", ("data", "--submission", "data/trainingQ/Boxes/im0.png"), 1),
                 ("--mask", ("data", "--mask", "some"), 1), ("--mode", ("data", "--mode", "thick"), 1),
+                ("--json: is empty", ("data", "--json", ""), 1), ("--submission: is empty", ("data", "--submission", ""), 1),
                 ("folders", (), 2)):
             if ".ssh-like" in arguments:
                 os.mkdir(self.path(".ssh-like"))
