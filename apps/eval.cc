@@ -56,6 +56,15 @@ void checkOutputs(const EvalArguments& arguments) {
     throw std::runtime_error("--submission is '" + arguments.submission + "', which is no folder");
 }
 
+std::string checksOf(const PostProcessing& post) {
+  std::string text;
+  if (post.left_right_px)
+    text += ", --left-right " + shown(*post.left_right_px, *post.left_right_px < 0 ? 0 : 2);
+  if (post.speckle_size_px) text += ", --speckle " + std::to_string(*post.speckle_size_px);
+  if (post.median_size) text += ", --median " + std::to_string(*post.median_size);
+  return text;
+}
+
 std::vector<EvalRecord::Fact> factsOf(const EvalArguments& arguments) {
   const std::time_t now = std::time(nullptr);
   char date[32];
@@ -70,7 +79,7 @@ std::vector<EvalRecord::Fact> factsOf(const EvalArguments& arguments) {
           {"threads", std::to_string(threads)},
           {"OpenCV", CV_VERSION ", " + cv::getCPUFeaturesLine()},
           {"folders", folders},
-          {"maps", arguments.methods.mode},
+          {"maps", arguments.methods.mode + checksOf(arguments.methods.post_processing)},
           {"pixels in the table", arguments.mask == "all" ? "all with known truth" : "non-occluded"},
           {"mean over scenes", arguments.weighted ? "Middlebury v3's weights" : "each scene counts the same"},
           {"disparities searched",

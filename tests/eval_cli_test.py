@@ -89,6 +89,18 @@ class Eval(DatasetTest):
                 self.assertEqual(len(lines), 1 + 4 + 2)
                 self.assertEqual(lines[-2].split()[:2] + [lines[-2].split()[3]], ["mean", "fast", f"{mean:.2f}"])
 
+    def test_checks_can_be_chosen(self):
+        coverage = []
+        for extra in ((), ("--left-right", "-1", "--speckle", "0", "--median", "0")):
+            self.assert_accepted(self.eval("--json", "out.json", "--mode", "sparse", *extra, methods="ssd,fast"))
+            coverage.append([row["all"]["coverage"] for row in self.json()["scenes"]])
+        for checked, unchecked in zip(*coverage):
+            self.assertLess(checked, unchecked)
+        self.assertIn("--left-right -1, --speckle 0, --median 0", self.json()["facts"]["maps"])
+        result = self.eval("--median", "4", methods="ssd")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("median_size", result.stderr)
+
     def test_mask(self):
         every = self.eval("--json", "out.json").stdout.splitlines()[1].split()
         seen_by_both = self.eval("--mask", "nocc").stdout.splitlines()[1].split()
