@@ -77,7 +77,7 @@ std::vector<SheetCell> cellsOf(const SceneFiles& files, const CompareArguments& 
     progress.show(files.name + ", " + method.name);
     try {
       const MethodResult result =
-          method.method->run(scene.left, scene.right, methodOptions(arguments.methods, num_disparities));
+          runTimed(*method.method, scene, methodOptions(arguments.methods, num_disparities));
       const Measurement measurement = score(files, scene, method.name, num_disparities, result);
       maps.push_back({result.disparity, method.name, remarkOf(measurement)});
     } catch (const std::exception& error) {

@@ -46,6 +46,12 @@ int disparitiesToSearch(const SceneFiles& files, const Scene& scene) {
   return ndisp > 0 ? std::min(ndisp, most) : estimateNumDisparities(scene.left, scene.right);
 }
 
+MethodResult runTimed(Method& method, const Scene& scene, const MethodOptions& options) {
+  MethodResult result = method.run(scene.left, scene.right, options);
+  if (result.milliseconds < kWarmUpLimit_ms) result = method.run(scene.left, scene.right, options);
+  return result;
+}
+
 Measurement score(const SceneFiles& files, const Scene& scene, std::string_view method, int num_disparities,
                   const MethodResult& result) {
   Measurement measurement;

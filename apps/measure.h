@@ -34,6 +34,11 @@ struct Measurement {
 /// without truth ndisp of the calibration; and without that an estimate. At most the width, and 1024.
 int disparitiesToSearch(const SceneFiles& files, const Scene& scene);
 
+/// Runs the method; if that took less than kWarmUpLimit_ms, once more, and the second run's time counts: the
+/// first one makes the threads and buffers that a stream of pairs would find made.
+MethodResult runTimed(Method& method, const Scene& scene, const MethodOptions& options);
+inline constexpr double kWarmUpLimit_ms = 2000;
+
 /// Scores `result` by the rules of the scene's benchmark: for Middlebury, known disparities are clipped to
 /// [0, ndisp] where the calibration states ndisp, and compared as whole pixels if it says isint; for ETH3D,
 /// disparities larger than the width are holes; for KITTI, D1 is that of the map after
