@@ -4,16 +4,17 @@
 #include <filesystem>
 #include <initializer_list>
 #include <stdexcept>
+#include <tuple>
 
 #include "apps/muted_stream.h"
 #include "apps/views.h"
 #include "camera/ply.h"
 #include "datasets/colorize.h"
-#include "datasets/disparity_file.h"
 #include "datasets/image_file.h"
 #include "datasets/input_file.h"
 #include "datasets/pfm.h"
 #include "datasets/png16.h"
+#include "datasets/scene_parts.h"
 
 namespace pomona {
 namespace {
@@ -100,27 +101,6 @@ void requireExtension(const OutputKind& kind, const std::string& path) {
   throw std::runtime_error(std::string(kind.option) + " is '" + path + "'; allowed extensions: " + allowed);
 }
 
-cv::Mat readView(const std::string& path) {
-  cv::Mat image = readImage(path);
-  const bool usable =
-      (image.depth() == CV_8U || image.depth() == CV_16U) && (image.channels() == 1 || image.channels() == 3);
-  if (!usable)
-    throw std::runtime_error(path + ": has " + describeType(image) +
-                             "; allowed: 1 or 3 channels of 8 or 16 bits");
-  return image;
-}
-
-void requireSide(const std::string& path, const char* side, int found, int expected) {
-  if (found != 0 && found != expected)
-    throw std::runtime_error(path + ": " + side + " is " + std::to_string(found) + "; the left image's is " +
-                             std::to_string(expected));
-}
-
-void requireSize(const std::string& path, cv::Size found, const cv::Mat& left) {
-  requireSide(path, "width", found.width, left.cols);
-  requireSide(path, "height", found.height, left.rows);
-}
-
 }  // namespace
 
 void checkOutputs(const ComputePaths& paths) {
@@ -146,28 +126,11 @@ void checkOutputs(const ComputePaths& paths) {
 ComputeInputs readInputs(const ComputePaths& paths) {
   const MutedErrorStream muted;
   ComputeInputs inputs;
-  inputs.left = readView(paths.left);
-  inputs.right = readView(paths.right);
-  requireSize(paths.right, inputs.right.size(), inputs.left);
-  if (inputs.right.type() != inputs.left.type())
-    throw std::runtime_error(paths.right + ": has " + describeType(inputs.right) + "; the left image has " +
-                             describeType(inputs.left));
-  if (!paths.mask.empty()) {
-    inputs.mask = readImage(paths.mask);
-    if (inputs.mask.type() != CV_8UC1)
-      throw std::runtime_error(paths.mask + ": has " + describeType(inputs.mask) +
-                               "; allowed: 1 channel of 8 bits");
-    requireSize(paths.mask, inputs.mask.size(), inputs.left);
-  }
-  if (!paths.ground_truth.empty()) {
-    inputs.ground_truth = readDisparity(paths.ground_truth);
-    requireSize(paths.ground_truth, inputs.ground_truth.size(), inputs.left);
-  }
-  if (!paths.calibration.empty()) {
-    inputs.calibration = readMiddleburyCalibration(paths.calibration);
-    const StereoCalibration& stereo = inputs.calibration->stereo;
-    requireSize(paths.calibration, {stereo.width, stereo.height}, inputs.left);
-  }
+  std::tie(inputs.left, inputs.right) = readViews(paths.left, paths.right);
+  const cv::Size size = inputs.left.size();
+  if (!paths.mask.empty()) inputs.mask = readByteMap(paths.mask, size);
+  if (!paths.ground_truth.empty()) inputs.ground_truth = readTruth(paths.ground_truth, size);
+  if (!paths.calibration.empty()) inputs.calibration = readCalibration(paths.calibration, size);
   return inputs;
 }
 

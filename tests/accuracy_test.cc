@@ -77,9 +77,30 @@ TEST(AccuracyGuard, FailsWhatSlippedAndWhatLosesToThePeer) {
   EXPECT_EQ(unknown.failures(), 1u);
 }
 
+TEST(AccuracyGuard, FailsWhatSlippedWhereBothCamerasSeeOnly) {
+  Setting s;
+  for (auto* figures : {&s.found, &s.accepted})
+    (*figures)[0].scenes[0].nonoccluded = (*figures)[0].scenes[0].all;
+  EXPECT_EQ(s.failures(), 0u);
+  s.found[0].scenes[0].nonoccluded[kBad1] += 0.2;
+  EXPECT_EQ(s.failures(), 1u);
+  s.found[0].scenes[0].nonoccluded = noFigures();
+  EXPECT_EQ(s.failures(), 3u);
+}
+
+TEST(AccuracyGuard, LeavesOutWhatRanOnNoScene) {
+  Setting s;
+  s.found[1].scenes.clear();
+  EXPECT_EQ(s.failures(), 0u);
+  EXPECT_TRUE(isGuardedOn("asw", "cones"));
+  EXPECT_FALSE(isGuardedOn("asw", "Aloe-full"));
+  EXPECT_TRUE(isGuardedOn("ncc", "Aloe-full"));
+}
+
 TEST(AccuracyReport, JsonIsReadBack) {
   Setting s;
-  s.found[0].scenes.push_back({"second", {}, {}});  // all figures 0: the mean halves
+  s.found[0].scenes.push_back({"a \"second\"", {}, {}});  // all figures 0: the mean halves
+  s.found[3].scenes[0].all[kBad2] = 1.234567;
   const std::string path = ::testing::TempDir() + "accuracy_report.json";
   std::ofstream(path) << json(s.found);
   const std::vector<MethodFigures> read = readFigures(path);
@@ -88,7 +109,8 @@ TEST(AccuracyReport, JsonIsReadBack) {
   EXPECT_EQ(read[0].method, "ours dense");
   EXPECT_EQ(read[3].kind, MapKind::kSparse);
   ASSERT_EQ(read[0].scenes.size(), 2u);
-  EXPECT_EQ(read[0].scenes[1].scene, "second");
+  EXPECT_EQ(read[0].scenes[1].scene, "a \"second\"");
+  EXPECT_EQ(read[3].scenes[0].all[kBad2], 1.234567);  // not what the tables show
   EXPECT_EQ(read[0].mean().all[kBad1], 4);
   EXPECT_EQ(read[3].scenes[0].all[kCoverage], 80);
   EXPECT_TRUE(std::isnan(read[3].scenes[0].nonoccluded[kCoverage]));
@@ -101,8 +123,10 @@ TEST(AccuracyReport, MeansLeaveOutWhatASceneLacks) {
   unknown.fill(std::nan(""));
   EXPECT_EQ(meanOf({known, unknown})[kBad2], 3);
   EXPECT_TRUE(std::isnan(meanOf({unknown})[kBad2]));
-  EXPECT_NE(markdown({figures("ours dense", MapKind::kDense, 8)}).find("| only | 8.00 / 8.00 / 8.00 |"),
-            std::string::npos);
+  const MethodFigures ours = figures("ours dense", MapKind::kDense, 8);
+  MethodFigures nowhere = ours;
+  nowhere.scenes.clear();
+  EXPECT_NE(markdown({ours, nowhere}).find("| only | 8.00 / 8.00 / 8.00 | - |"), std::string::npos);
 }
 
 }  // namespace

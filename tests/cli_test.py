@@ -254,8 +254,8 @@ class BadViews(CommandTest):
         self.refuse("text.png", left=self.put("text.png", "this is no image\n" * 9))
 
     def test_sizes_and_types(self):
-        self.refuse("narrow.png: width is 95", right=self.put("narrow.png", png(95, 64, 2, 8, b"abc")))
-        self.refuse("low.png: height is 63", right=self.put("low.png", png(96, 63, 2, 8, b"abc")))
+        self.refuse("narrow.png: is 95x64", right=self.put("narrow.png", png(95, 64, 2, 8, b"abc")))
+        self.refuse("low.png: is 96x63", right=self.put("low.png", png(96, 63, 2, 8, b"abc")))
         self.refuse("alpha.png: has 4 channels", left=self.put("alpha.png", png(96, 64, 6, 8, b"abcd")))
         self.refuse("gray.png: has 1 channel", right=self.put("gray.png", gray(96, 64)))
         self.refuse("deep.png: has 3 channels of 16", right=self.put("deep.png", png(96, 64, 2, 16, b"abcdef")))
@@ -263,7 +263,7 @@ class BadViews(CommandTest):
 
     def test_mask(self):
         self.refuse("absent.png", "--mask", "absent.png")
-        self.refuse("mask.png: width is 10", "--mask", self.put("mask.png", gray(10, 64)))
+        self.refuse("mask.png: is 10x64", "--mask", self.put("mask.png", gray(10, 64)))
         self.refuse("bgr.png: has 3 channels", "--mask", self.put("bgr.png", png(96, 64, 2, 8, b"abc")))
 
 
@@ -273,7 +273,7 @@ class BadSideFiles(CommandTest):
         self.refuse("absent.txt", "--calib", "absent.txt")
         for text, part in (("", "cam0="), (cam0, "line 1: the file ends without 'baseline='"),
                            (cam0 + "baseline=-1\n", "line 2: baseline is '-1'"),
-                           (cam0 + "baseline=120\nwidth=1482\n", "width is 1482"),
+                           (cam0 + "baseline=120\nwidth=1482\n", "is for images of 1482x64"),
                            (cam0 + "baseline=120\nndisp=97\n", "ndisp of"),
                            ("\x00\xff\x01", "line 1")):
             self.refuse(part, "--calib", self.put("calib.txt", text))
@@ -284,7 +284,7 @@ class BadSideFiles(CommandTest):
         self.refuse("gt.pfm: byte 0", "--gt", self.put("gt.pfm", b""))
         self.refuse("gt.pfm: byte 1000", "--gt", self.put("gt.pfm", whole[:1000]))
         self.refuse("gt.pfm: byte 14", "--gt", self.put("gt.pfm", "Pf\n2000000000 2000000000\n-1\n"))
-        self.refuse("gt.pfm: width is 1", "--gt", self.put("gt.pfm", b"Pf\n1 1\n-1\n\0\0\0\0"))
+        self.refuse("gt.pfm: is 1x1", "--gt", self.put("gt.pfm", b"Pf\n1 1\n-1\n\0\0\0\0"))
         self.refuse("gt.tif", "--gt", self.put("gt.tif", whole))
 
 
