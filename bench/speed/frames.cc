@@ -1,0 +1,104 @@
+#include "bench/speed/frames.h"
+
+#include <benchmark/benchmark.h>
+
+#include <memory>
+#include <opencv2/core/utility.hpp>
+#include <stdexcept>
+
+#include "baselines/method.h"
+#include "pomona/engine.h"
+
+namespace pomona {
+namespace {
+
+std::string caseName(const std::string& method, const char* variant, const FrameSize& size, int threads) {
+  return "frame/" + method + "/" + variant + "/" + size.name() + "/t" + std::to_string(threads);
+}
+
+FrameCase presetCase(const std::string& preset, OutputMode mode, const FrameSize& size, int threads) {
+  Options options = Options::preset(preset);
+  options.num_disparities = size.disparities;
+  options.mode = mode;
+  options.threads = threads;
+  const char* variant = mode == OutputMode::kDense ? "dense" : "sparse";
+  return {caseName(preset, variant, size, threads), size, threads, frameTraffic(options),
+          [options](const ImagePair& pair) {
+            cv::setNumThreads(options.threads);
+            const auto engine = std::make_shared<StereoEngine>(options);
+            return [engine, &pair] { engine->compute(pair.left, pair.right); };
+          }};
+}
+
+FrameCase peerCase(const std::string& method, bool raw, const FrameSize& size, int threads) {
+  const MethodOptions options{.num_disparities = size.disparities, .mode = OutputMode::kSparse, .raw = raw};
+  return {caseName(method, raw ? "raw" : "checked", size, threads),
+          size,
+          threads,
+          {},
+          [method, options, threads](const ImagePair& pair) {
+            cv::setNumThreads(threads);
+            const std::shared_ptr<Method> matcher = makeMethod(method);
+            return [matcher, options, &pair] { matcher->run(pair.left, pair.right, options); };
+          }};
+}
+
+void measure(benchmark::State& state, const FrameCase& frame_case, const BenchmarkInputs& inputs) {
+  const ImagePair pair = inputs.at(frame_case.size);
+  const FrameCase::Frame frame = frame_case.prepare(pair);
+  frame();  // memory is allocated here
+  for (auto _ : state) frame();
+
+  using benchmark::Counter;
+  constexpr auto kRate = Counter::kIsIterationInvariantRate;
+  const auto time_of = kRate | Counter::kInvert;
+  constexpr double kMsPerS = 1e3;
+  const double megapixels = frame_case.size.pixels() / 1e6;
+  const double giga_disparities = megapixels / 1e3 * frame_case.size.disparities;
+  state.counters["fps"] = Counter(1, kRate);
+  state.counters["MDE_per_s"] = Counter(1e3 * giga_disparities, kRate);
+  state.counters["ms_per_MP"] = Counter(megapixels / kMsPerS, time_of);
+  state.counters["ms_per_GD"] = Counter(giga_disparities / kMsPerS, time_of);
+  if (frame_case.traffic.memory > 0) {
+    state.counters["memory_B_per_px"] = frame_case.traffic.memory;
+    state.counters["rows_B_per_px"] = frame_case.traffic.rows;
+  }
+}
+
+}  // namespace
+
+std::vector<FrameCase> frameCases(std::span<const FrameSize> sizes) {
+  std::vector<FrameCase> cases;
+  for (const FrameSize& size : sizes)
+    for (int threads : {1, 2}) {
+      for (const char* preset : {"fast", "balanced", "quality", "paper"})
+        for (OutputMode mode : {OutputMode::kSparse, OutputMode::kDense})
+          if (std::string(preset) != "paper" || size.height == 720)
+            cases.push_back(presetCase(preset, mode, size, threads));
+      for (const char* peer : {"opencv-bm", "opencv-sgbm", "opencv-3way", "opencv-hh", "opencv-hh4"})
+        for (bool raw : {false, true}) cases.push_back(peerCase(peer, raw, size, threads));
+    }
+  return cases;
+}
+
+const FrameCase& findCase(std::span<const FrameCase> cases, const std::string& name) {
+  for (const FrameCase& c : cases)
+    if (c.name == name) return c;
+  throw std::invalid_argument("no frame is called \"" + name + "\" (--list names them)");
+}
+
+void registerFrames(std::span<const FrameCase> cases, const BenchmarkInputs& inputs) {
+  for (const FrameCase& c : cases) {
+    auto* registered =
+        benchmark::RegisterBenchmark(c.name.c_str(), [&](benchmark::State& s) { measure(s, c, inputs); });
+    registered->Unit(benchmark::kMillisecond);
+    // With one thread, what the process computed, whichever of its threads did; with more, what the user
+    // waits.
+    if (c.threads == 1)
+      registered->MeasureProcessCPUTime();
+    else
+      registered->UseRealTime();
+  }
+}
+
+}  // namespace pomona
