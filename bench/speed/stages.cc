@@ -68,11 +68,13 @@ void MatchingParts::run(const Options& o, const ImagePair& pair, StageClock& clo
     features[i] = {&views[i].census, {}, i == 0 ? in.left : in.right};
   }
   clock.lap("census");
-  for (int i = 0; i < 2 && blended; ++i) {
-    sobel.compute(features[i].gray, views[i].sobel, kernels, threads);
-    features[i].sobel = views[i].sobel.view();
+  if (blended) {
+    for (int i = 0; i < 2; ++i) {
+      sobel.compute(features[i].gray, views[i].sobel, kernels, threads);
+      features[i].sobel = views[i].sobel.view();
+    }
+    clock.lap("Sobel");
   }
-  clock.lap("Sobel");
   steps.compute(in.guide, kernels, threads);
   clock.lap("colour steps");
   const DisparityRange range = makeRange(o.min_disparity, o.num_disparities, kernels);
@@ -80,7 +82,7 @@ void MatchingParts::run(const Options& o, const ImagePair& pair, StageClock& clo
   (cost.*prepare)(features[0], features[1], maximumCost(o.cost.cost), range, kernels, threads);
   clock.lap("layout of the right features");
   cost.prepareSupport(steps, o.cost.support_color_step, threads);
-  clock.lap("support arms");
+  if (o.cost.support_color_step > 0) clock.lap("support arms");
   aggregator.run(cost, steps, o.aggregation, kernels, winners, threads);
   clock.lap("cost and aggregation");
 
