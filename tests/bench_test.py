@@ -49,8 +49,8 @@ def canned():
              {"name": "kernel/medians/avx2/1000x1000/D100", "round": 0, "ms": 2, "kernel:median3x3": 1.5,
               "bytes:median3x3": 12}]
     machine = {"cpu": "a CPU", "cores": 2, "caches": ["L2 unified 2048K"], "virtual": True, "governor": "performance",
-               "memory_GiB": 8, "system": "a system", "load_average": 1.5, "idle": False, "commit": "abc",
-               "date": "2024-01-01"}
+               "memory_GiB": 8, "system": "a system", "load_average": 1.5, "busy_cores": 0.7, "idle": False,
+               "commit": "abc", "date": "2024-01-01"}
     return {"machine": machine, "context": {"input": "a pair", "isa": "avx2", "opencv": "4.6.0"}, "benchmarks": runs,
             "peak_bytes": {"frame/fast/sparse/1000x1000/D100/t1": 123e6, "nothing/1000x1000/D100": 50e6},
             "latency": [{"name": "frame/fast", "frames": 9, "p50": 2.0, "p99": 3.0, "max": 4.0}],
