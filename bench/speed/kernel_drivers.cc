@@ -126,16 +126,18 @@ KernelMaterial::KernelMaterial(const FrameSize& frame_size, const BenchmarkInput
     for (int k = 0; k < 256; ++k) cost_table[256 * i + k] = static_cast<std::uint8_t>(std::abs(i - k) / 2);
 
   const Isa isa = usableIsas().back();
+  SparseStage::Settings settings{
+      .match = {0, size.disparities, options.cost, options.aggregation, options.winner},
+      .validation = options.validation,
+      .mutual_information = {},
+      .mask = {},
+      .isa = isa,
+      .threads = 1};
+  settings.validation.left_right_px = options.completion.seed_left_right_px;
+  settings.validation.speckle_size_px = options.completion.seed_speckle_size_px;
   SparseStage sparse;
   StageClock untimed;
-  sparse.run(in,
-             {{0, size.disparities, options.cost, options.aggregation, options.winner},
-              options.validation,
-              {},
-              {},
-              isa,
-              1},
-             untimed);
+  sparse.run(in, settings, untimed);
   copyPixels<float>(sparse.maps().disparity.view(), sparse_disparity);
   copyPixels<float>(sparse.maps().right_disparity.view(), right_disparity);
   copyPixels<std::uint8_t>(sparse.maps().state.view(), sparse_state);
