@@ -60,8 +60,8 @@ struct StereoEngine::State {
 
 SparseStage::Settings StereoEngine::State::settings(const cv::Mat& mask) const {
   SparseStage::Settings s;
-  s.match = {options.min_disparity, options.num_disparities, options.cost, options.aggregation,
-             options.winner};
+  s.match = {options.min_disparity, options.num_disparities, options.cost,
+             options.aggregation,   options.winner,          options.memory};
   s.validation = options.validation;
   if (completesBy(CompletionMethod::kFillHoles)) {
     s.validation.left_right_px = options.completion.seed_left_right_px;

@@ -83,6 +83,7 @@ void Options::validate() const {
   requireRange("min_disparity", min_disparity, -16384, 16384);
   requireRange("num_disparities", num_disparities, 1, kMaxDisparities);
   requireEnum("mode", mode, OutputMode::kDense);
+  requireEnum("memory", memory, MemoryMode::kLow);
   requireRange("threads", threads, 0, 1024);
   chooseIsa(isa);
 

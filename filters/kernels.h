@@ -51,7 +51,23 @@ inline constexpr std::uint8_t kPlaneColorTolerance = 15;
 inline constexpr float kPlaneFewestTaps = 6.0f;
 inline constexpr float kPlaneRidge = 0.3f;
 
+/// Of filters/left_right.h: `count` pixels of a row from x_begin on; `right` is the whole row of the right
+/// map.
+struct LeftRightPixels {
+  const float* disparity;
+  const float* right;
+  int x_begin, count, width;
+};
+/// Disparities of this size or more, as infinite ones, meet nothing.
+inline constexpr float kFarthestDisparity_px = 1e9f;
+
 struct FilterKernels {
+  /// first[i] to last[i]: the whole disparities within `tolerance_px` of right[i]; none if it is unknown.
+  void (*metDisparities)(const float* right, int count, float tolerance_px, std::int32_t* first,
+                         std::int32_t* last);
+  /// column[i] = the right column nearest to x - d, -1 if it lies outside the image or d is NaN;
+  /// difference[i] = |d - d_right| there (of column 0 where there is none).
+  void (*matches)(const LeftRightPixels& pixels, std::int32_t* column, float* difference);
   /// One row of the NaN-aware median, see filters/median.h. `rows` are the 3 (5) input rows around it,
   /// readable from 1 (2) pixels before their start up to the next multiple of 16 pixels, and 1 (2) more.
   void (*median3x3)(const float* const* rows, int width, float* out);

@@ -30,8 +30,10 @@ struct MatchOptions {
   CostOptions cost;
   AggregationOptions aggregation;
   WinnerOptions winner;
-  int prior_weight = 0,
-      prior_reach_px = 0;  ///< see MatchingCostRows::preparePrior; used with MatchInput::prior
+  MemoryMode memory = MemoryMode::kAutomatic;
+  // See MatchingCostRows::preparePrior; used with MatchInput::prior.
+  int prior_weight = 0;
+  int prior_reach_px = 0;
 };
 
 /// Unvalidated disparities, pixels, of the image's size.
@@ -50,8 +52,9 @@ class SgmMatcher {
   void match(const MatchInput& pair, const MatchOptions& options, std::span<const std::uint8_t> table,
              const SgmKernels& kernels, MatchMaps& out, int threads);
 
-  /// The sums behind the last match.
-  const WinnerMaps& winners() const { return winners_; }
+  /// The same up to the winners of each row, for whoever wants to look at the sums behind a match.
+  void findWinners(const MatchInput& pair, const MatchOptions& options, std::span<const std::uint8_t> table,
+                   const SgmKernels& kernels, WinnerSink sink, int threads);
 
  private:
   struct View {
@@ -69,7 +72,6 @@ class SgmMatcher {
   ColorSteps steps_;
   MatchingCostRows cost_;
   Aggregator aggregator_;
-  WinnerMaps winners_;
 };
 
 }  // namespace pomona

@@ -111,6 +111,14 @@ enum class OutputMode {
   kDense,   ///< every pixel that the mask does not exclude
 };
 
+/// How aggregation keeps the sums of its first pass until the second completes them. The results are the
+/// same.
+enum class MemoryMode {
+  kAutomatic,  ///< kSpeed while the sums take at most 256 MiB, else kLow
+  kSpeed,      ///< all of them: one byte per pixel and disparity, two if p2 > 63
+  kLow,        ///< a few rows of them, computed a second time: memory grows with the root of the height
+};
+
 struct Options {
   int min_disparity = 0;     ///< smallest disparity searched, pixels; may be negative
   int num_disparities = 64;  ///< number of disparities searched, 1..1024; at most the image width
@@ -123,6 +131,7 @@ struct Options {
   CompletionOptions completion;
   SecondPassOptions second_pass;
 
+  MemoryMode memory = MemoryMode::kAutomatic;
   int threads = 0;  ///< worker threads; 0: one per available processor; at most 1024
   std::string
       isa;  ///< "scalar", "avx2", "avx512", "neon"; empty: POMONA_ISA if set, else the best the CPU has
