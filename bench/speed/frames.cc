@@ -19,18 +19,18 @@ std::string caseName(const std::string& method, const char* variant, const Frame
   return "frame/" + method + "/" + variant + "/" + size.name() + "/t" + std::to_string(threads);
 }
 
-FrameCase presetCase(const std::string& preset, OutputMode mode, const FrameSize& size, int threads,
-                     const std::string& isa = "") {
-  Options options = Options::preset(preset);
-  options.isa = isa;
+/// `preset` may be followed by what is forced, "-avx2" or "-low" memory.
+FrameCase presetCase(const std::string& preset, OutputMode mode, const FrameSize& size, int threads) {
+  Options options = Options::preset(preset.substr(0, preset.find('-')));
   options.num_disparities = size.disparities;
   options.mode = mode;
   options.threads = threads;
-  const char* variant = mode == OutputMode::kDense ? "dense" : "sparse";
-  return {caseName(isa.empty() ? preset : preset + "-" + isa, variant, size, threads),
+  if (preset.ends_with("-avx2")) options.isa = "avx2";
+  if (preset.ends_with("-low")) options.memory = MemoryMode::kLow;
+  return {caseName(preset, mode == OutputMode::kDense ? "dense" : "sparse", size, threads),
           size,
           threads,
-          frameTraffic(options),
+          frameTraffic(options, size.height, size.pixels()),
           true,
           [options](const ImagePair& pair) {
             cv::setNumThreads(options.threads);
@@ -92,8 +92,9 @@ std::vector<FrameCase> frameCases(std::span<const FrameSize> sizes) {
         for (OutputMode mode : {OutputMode::kSparse, OutputMode::kDense})
           if (std::string(preset) != "paper" || size.height == 720)
             cases.push_back(presetCase(preset, mode, size, threads));
-      if (hasBetterThanAvx2())
-        cases.push_back(presetCase("fast", OutputMode::kSparse, size, threads, "avx2"));
+      if (hasBetterThanAvx2()) cases.push_back(presetCase("fast-avx2", OutputMode::kSparse, size, threads));
+      for (OutputMode mode : {OutputMode::kSparse, OutputMode::kDense})
+        cases.push_back(presetCase("fast-low", mode, size, threads));
       for (const char* peer : {"opencv-bm", "opencv-sgbm", "opencv-3way", "opencv-hh", "opencv-hh4"})
         for (bool raw : {false, true}) cases.push_back(peerCase(peer, raw, size, threads));
     }

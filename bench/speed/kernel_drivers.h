@@ -9,6 +9,7 @@
 #include "bench/speed/inputs.h"
 #include "engine/input.h"
 #include "filters/joint_bilateral.h"
+#include "filters/left_right.h"
 #include "filters/median.h"
 #include "filters/plane_refine.h"
 #include "filters/weighted_median.h"
@@ -55,6 +56,7 @@ struct KernelMaterial {
   Image<float> disparity, quarter_disparity, fusion_weight;
   Image<std::uint8_t> state, small;
   Image<std::uint16_t> small16;
+  LeftRightScratch left_right;
   MedianScratch median;
   BilateralScratch bilateral;
   WeightedMedianScratch weighted_median;

@@ -48,7 +48,6 @@ struct MatchingParts {
   ColorSteps steps;
   MatchingCostRows cost;
   Aggregator aggregator;
-  WinnerMaps winners;
   CoarseStage coarse;
 
   void run(const Options& o, const ImagePair& pair, StageClock& clock);
@@ -83,7 +82,8 @@ void MatchingParts::run(const Options& o, const ImagePair& pair, StageClock& clo
   clock.lap("layout of the right features");
   cost.prepareSupport(steps, o.cost.support_color_step, threads);
   if (o.cost.support_color_step > 0) clock.lap("support arms");
-  aggregator.run(cost, steps, o.aggregation, kernels, winners, threads);
+  const auto drop = [](int, const WinnerRow&) {};
+  aggregator.run(cost, steps, o.aggregation, MemoryMode::kSpeed, kernels, drop, threads);
   clock.lap("cost and aggregation");
 
   const SparseStage::Settings settings{

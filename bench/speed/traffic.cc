@@ -1,5 +1,7 @@
 #include "bench/speed/traffic.h"
 
+#include <cmath>
+
 #include "sgm/kernels.h"
 
 namespace pomona {
@@ -34,28 +36,39 @@ struct MatchBytes {
   double lastKernel() const { return firstKernel() + 2 * lanes + winners(); }  // 2: recent 16-bit sums
 };
 
-Traffic matchTraffic(const MatchBytes& m) {
-  constexpr double kPasses = 2, kViews = 2, kDirections = 4;
-  const double features = kViews * m.planes              // written
-                          + 2 * m.planes                 // the right ones laid out anew
-                          + kPasses * kViews * m.planes  // read by the cost kernel
-                          + kDirections * (1 + kPasses);
-  const double sums = 2 * m.sum * m.lanes;
-  const double maps =
-      2 * m.winners() + 4 + 4 + 4 + 1;  // winners written and read; disparities, margin, state
+Traffic matchTraffic(const MatchBytes& m, MemoryMode memory, int height, double pixels) {
+  constexpr double kSides = 2, kDirections = 4;
+  constexpr double kMostSumBytes = 256 << 20;  // see MemoryMode::kAutomatic
+  const double sums = 2 * m.sum * m.lanes;     // written and read
+  const bool low = memory == MemoryMode::kLow ||
+                   (memory == MemoryMode::kAutomatic && m.sum * m.lanes * pixels > kMostSumBytes);
+  const double passes = low ? 3 : 2;
+  const double rows_per_checkpoint = std::sqrt(0.5 * height * m.paths / m.sum);
+  const double checkpoints = 2 * m.paths * m.lanes / rows_per_checkpoint;
+
+  const double features = kSides * m.planes             // written
+                          + 2 * m.planes                // the right ones laid out anew
+                          + passes * kSides * m.planes  // read by the cost kernel
+                          + kDirections * (1 + passes);
+  const double maps = 4 + 4 + 4 + 1;  // disparities, margin, state
   const double costs = 2 * m.lanes + (m.supported ? m.supportKernel() : 0);
-  return {features + sums + maps, kPasses * (costs + m.pathState()) + 2 * m.lanes};
+  Traffic t;
+  t.memory = features + maps + (low ? checkpoints : sums);
+  t.rows = passes * (costs + m.pathState()) + 2 * m.lanes + 2 * m.winners();
+  if (low) t.rows += sums + m.sum * m.lanes;  // those of the first pass are written for nobody
+  return t;
 }
 
 }  // namespace
 
-Traffic frameTraffic(const Options& o) {
+Traffic frameTraffic(const Options& o, int height, double pixels) {
   if (o.cost.cost == MatchingCost::kMutualInformation) return {};
-  const Isa isa = chooseIsa(o.isa);
-  Traffic t = matchTraffic({o.cost, o.aggregation, o.num_disparities, isa});
+  const auto ofMatch = [&](const CostOptions& cost, const AggregationOptions& aggregation) {
+    return matchTraffic({cost, aggregation, o.num_disparities, chooseIsa(o.isa)}, o.memory, height, pixels);
+  };
+  Traffic t = ofMatch(o.cost, o.aggregation);
   if (o.second_pass.enabled && o.mode == OutputMode::kDense) {
-    const Traffic second =
-        matchTraffic({o.second_pass.cost, o.second_pass.aggregation, o.num_disparities, isa});
+    const Traffic second = ofMatch(o.second_pass.cost, o.second_pass.aggregation);
     t.memory += second.memory;
     t.rows += second.rows;
   }
