@@ -22,7 +22,7 @@ void validate(WindowMaps& maps, SearchRange range, const ValidationOptions& vali
   if (validation.speckle_size_px > 0) {
     SpeckleScratch scratch;
     removeSpeckles(maps.disparity.view(), maps.state.view(), validation.speckle_size_px,
-                   validation.speckle_step_px, scratch, threads);
+                   validation.speckle_step_px, scratch, filterKernels(chooseIsa("")), threads);
   }
   if (validation.median_size > 0) {
     MedianScratch scratch;

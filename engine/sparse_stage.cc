@@ -42,7 +42,7 @@ void SparseStage::run(const MatchInput& pair, const Settings& s, StageClock& clo
 
   if (v.speckle_size_px > 0)
     removeSpeckles(maps_.disparity.view(), maps_.state.view(), v.speckle_size_px, v.speckle_step_px, speckle_,
-                   s.threads);
+                   filterKernels(s.isa), s.threads);
   clock.lap("speckle");
 
   if (v.median_size > 0) {

@@ -68,6 +68,11 @@ struct FilterKernels {
   /// column[i] = the right column nearest to x - d, -1 if it lies outside the image or d is NaN;
   /// difference[i] = |d - d_right| there (of column 0 where there is none).
   void (*matches)(const LeftRightPixels& pixels, std::int32_t* column, float* difference);
+  /// out[i] = 1 if row[i] is not connected to row[i - 1], see filters/speckle.h.
+  void (*breaks)(const float* row, int count, float max_step_px, std::uint8_t* out);
+  /// out[i] = 1 if upper[i] and lower[i] are connected, and not by way of upper[i - 1] and lower[i - 1]
+  /// already.
+  void (*links)(const float* upper, const float* lower, int count, float max_step_px, std::uint8_t* out);
   /// One row of the NaN-aware median, see filters/median.h. `rows` are the 3 (5) input rows around it,
   /// readable from 1 (2) pixels before their start up to the next multiple of 16 pixels, and 1 (2) more.
   void (*median3x3)(const float* const* rows, int width, float* out);

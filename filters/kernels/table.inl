@@ -7,6 +7,7 @@
 #include "filters/kernels/left_right.inl"
 #include "filters/kernels/median.inl"
 #include "filters/kernels/plane_refine.inl"
+#include "filters/kernels/speckle.inl"
 #include "filters/kernels/weighted_median.inl"
 
 namespace pomona {
@@ -14,6 +15,8 @@ namespace {
 
 constexpr FilterKernels kTable = {.metDisparities = metDisparitiesOf,
                                   .matches = matchesOf,
+                                  .breaks = breaksOf,
+                                  .links = linksOf,
                                   .median3x3 = medianRow<3>,
                                   .median5x5 = medianRow<5>,
                                   .jointBilateral = jointBilateralBlock,
