@@ -5,6 +5,7 @@ Usage: bench_test.py POMONA_BENCH [unittest arguments]
 
 import importlib.util
 import json
+import re
 import subprocess
 import sys
 import tempfile
@@ -16,7 +17,7 @@ SCRIPT = Path(__file__).resolve().parent.parent / "scripts" / "bench"
 SIZE = "96x64/D16"
 # One of each kind, so that a sanitizer's build can afford it.
 SOME = (r"^frame/(balanced/dense|opencv-hh/checked)/.*|^stage/(frame/quality|parts/balanced)/.*t2"
-        r"|^kernel/(second-pass|medians|bilateral.*|refinement|scaling.*|fusion|filling|gray.*)/")
+        r"|^kernel/(second-pass|checks|medians|bilateral.*|refinement|scaling.*|fusion|filling|gray.*)/")
 
 bench_binary = None
 
@@ -146,6 +147,18 @@ class Smoke(unittest.TestCase):
             first = (Path(folder) / "bench.md").read_text()
             self.assertEqual(self.bench(folder, "--from", str(Path(folder) / "bench.json")).returncode, 0)
             self.assertEqual((Path(folder) / "bench.md").read_text(), first)
+
+    def test_no_kernel_is_forgotten(self):
+        root = SCRIPT.parent.parent
+        timed = set(re.findall(r"TIMED\((?!table)\w+, (\w+)", (root / "bench/speed/kernels.cc").read_text()))
+        for folder in ("sgm", "filters", "pyramid"):
+            kernels = re.findall(r"^  \w+ \(\*(\w+)", (root / folder / "kernels.h").read_text(), re.MULTILINE)
+            self.assertTrue(kernels)
+            self.assertEqual(set(kernels) - timed, set(), folder)
+        done = subprocess.run([bench_binary, "--detail-size", SIZE, "--benchmark_filter=^kernel/.*/scalar/",
+                               "--benchmark_min_time=0.001", "--benchmark_format=json"], stdout=subprocess.PIPE,
+                              text=True, check=True)
+        self.assertEqual(timed, set(re.findall(r'"kernel:(\w+)', done.stdout)))
 
     def test_what_cannot_be_done_is_said(self):
         with tempfile.TemporaryDirectory() as folder:

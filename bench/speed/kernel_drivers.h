@@ -12,6 +12,7 @@
 #include "filters/left_right.h"
 #include "filters/median.h"
 #include "filters/plane_refine.h"
+#include "filters/speckle.h"
 #include "filters/weighted_median.h"
 #include "pomona/options.h"
 #include "pyramid/fusion.h"
@@ -57,6 +58,7 @@ struct KernelMaterial {
   Image<std::uint8_t> state, small;
   Image<std::uint16_t> small16;
   LeftRightScratch left_right;
+  SpeckleScratch speckle;
   MedianScratch median;
   BilateralScratch bilateral;
   WeightedMedianScratch weighted_median;

@@ -22,6 +22,7 @@ KernelTables timedTables(Isa isa) {
   TIMED(sgm, prior), TIMED(sgm, aggregateFirst), TIMED(sgm, aggregateLast);
   TIMED(sgm, refine[0]), TIMED(sgm, refine[1]), TIMED(sgm, refine[2]), TIMED(sgm, refine[3]);
   TIMED(filters, metDisparities), TIMED(filters, matches);
+  TIMED(filters, breaks), TIMED(filters, links);
   TIMED(filters, median3x3), TIMED(filters, median5x5), TIMED(filters, jointBilateral);
   TIMED(filters, nearJumps), TIMED(filters, weightedMedian);
   TIMED(filters, refinePlanes[0]), TIMED(filters, refinePlanes[1]);
