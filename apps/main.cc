@@ -35,10 +35,11 @@ int main(int argc, char** argv) {
   pomona::addCompare(app);
   pomona::addInfo(app);
   pomona::addRender(app);
+  pomona::addRig(app);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty())
-      return fail("what to do? compute, eval, compare, info or render (see pomona --help)", kBadUsage);
+      return fail("what to do? compute, eval, compare, info, render or rig (see pomona --help)", kBadUsage);
     if (!std::cout.flush()) return fail("standard output: cannot be written", kBadInput);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help and --version

@@ -13,5 +13,6 @@ void addCompute(CLI::App& app);
 void addEval(CLI::App& app);
 void addInfo(CLI::App& app);
 void addRender(CLI::App& app);
+void addRig(CLI::App& app);
 
 }  // namespace pomona
