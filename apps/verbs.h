@@ -8,6 +8,7 @@ class App;
 
 namespace pomona {
 
+void addCalibrate(CLI::App& app);
 void addCompare(CLI::App& app);
 void addCompute(CLI::App& app);
 void addEval(CLI::App& app);

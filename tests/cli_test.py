@@ -309,7 +309,7 @@ class BadOptions(CommandTest):
         self.refuse("--max-disparity", "--max-disparity", "nan", status=2)
         self.refuse("--max-disparity", "--max-disparity", "99999999999", status=2)
         self.refuse("--nonsense", "--nonsense", status=2)
-        self.assert_refused(self.run_command(), "compute, eval, compare, info, render or rig", 2)
+        self.assert_refused(self.run_command(), "calibrate, compute, eval, compare, info, render or rig", 2)
         self.assert_refused(self.run_command("guess"), "guess", 2)
         self.assert_refused(self.run_command("compute"), "left", 2)
         self.assert_refused(self.run_command("compute", self.left, self.right), "--output", 2)

@@ -27,6 +27,10 @@ struct CameraModel {
 
   cv::Matx33d matrix() const { return {fx_px, 0, cx_px, 0, fy_px, cy_px, 0, 0, 1}; }
   bool isDistorted() const;
+  /// The pixel that sees the direction (x, y, 1) of the camera's frame.
+  cv::Vec2d pixelOf(const cv::Vec2d& direction) const;
+  /// The inverse: (x, y) of the direction (x, y, 1) that `pixel` sees, to 1e-9; NaN where the model has none.
+  cv::Vec2d directionOf(const cv::Vec2d& pixel) const;
 };
 
 /// How two views are turned so that a point lies in the same row of both.
