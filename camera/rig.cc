@@ -139,6 +139,33 @@ StereoRig rigOf(const StereoCalibration& calibration) {
 
 namespace {
 
+bool seesBorder(const CameraModel& camera, const cv::Matx33d& rotation, double cx_px,
+                const StereoCalibration& c) {
+  const cv::Matx33d back = rotation.t();
+  const auto seen = [&](int x, int y) {
+    const cv::Vec3d d = back * cv::Vec3d((x - cx_px) / c.focal_px, (y - c.cy_px) / c.focal_px, 1);
+    const cv::Vec2d pixel = camera.pixelOf({d[0] / d[2], d[1] / d[2]});
+    return d[2] > 0 && within(pixel[0], 0, camera.width - 1) && within(pixel[1], 0, camera.height - 1);
+  };
+  for (int x = 0; x < c.width; ++x)
+    if (!seen(x, 0) || !seen(x, c.height - 1)) return false;
+  for (int y = 0; y < c.height; ++y)
+    if (!seen(0, y) || !seen(c.width - 1, y)) return false;
+  return true;
+}
+
+// OpenCV looks at 9 x 9 points only, and leaves some pixels from outside: zooms in until there are none.
+void zoomIn(const StereoRig& rig, Rectification& r) {
+  constexpr double kStep = 1.001;
+  constexpr int kMostSteps = 100;
+  StereoCalibration& c = r.calibration;
+  const auto clean = [&] {
+    return seesBorder(rig.left, r.left_rotation, c.cx_px, c) &&
+           seesBorder(rig.right, r.right_rotation, c.cx_px + c.doffs_px, c);
+  };
+  for (int i = 0; i < kMostSteps && !clean(); ++i) c.focal_px *= kStep;
+}
+
 Rectification bouguet(const StereoRig& rig) {
   const cv::Size size(rig.left.width, rig.left.height);
   const cv::Mat r(rig.right_from_left_rotation), t(rig.right_from_left_m);
@@ -186,6 +213,7 @@ Rectification rectificationOf(const StereoRig& rig) {
   } catch (const std::invalid_argument& e) {
     throw std::invalid_argument(std::string("the rig cannot be rectified: its ") + e.what());
   }
+  zoomIn(rig, result);
   return result;
 }
 

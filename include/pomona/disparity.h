@@ -1,7 +1,9 @@
 // The result of dense stereo matching: a disparity, a state and a confidence for every pixel.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <opencv2/core.hpp>
 #include <string_view>
 #include <vector>
@@ -21,8 +23,16 @@ struct StereoResult {
   cv::Mat disparity;   ///< CV_32F, pixels of the given image, d = x_left - x_right; quiet NaN where unknown
   cv::Mat state;       ///< CV_8U, values of PixelState
   cv::Mat confidence;  ///< CV_32F in [0, 1]; 0 where the disparity is unknown
+  /// Vertical offset y_right - y_left between the views, which should be 0: median over some hundred points,
+  /// and the largest anywhere in the image, signless. Beyond 0.5 px matching degrades without other notice:
+  /// the camera wants a new calibration. NaN where Options::row_check is off or too few points could be
+  /// matched.
+  float row_offset_px = std::numeric_limits<float>::quiet_NaN();
+  float row_error_px = std::numeric_limits<float>::quiet_NaN();
   std::vector<StageTiming> timings;  ///< in the order the stages ran
 
+  /// Whether the rows of the views are known not to match.
+  bool rowsAreOff() const { return std::abs(row_offset_px) > 0.5f || row_error_px > 1.0f; }
   PixelState stateAt(int y, int x) const { return static_cast<PixelState>(state.at<std::uint8_t>(y, x)); }
 };
 

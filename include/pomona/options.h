@@ -123,6 +123,9 @@ struct Options {
   CompletionOptions completion;
   SecondPassOptions second_pass;
 
+  /// Measure the vertical offset between the views (StereoResult::row_offset_px): about 1 ms.
+  bool row_check = true;
+
   int threads = 0;  ///< worker threads; 0: one per available processor; at most 1024
   std::string
       isa;  ///< "scalar", "avx2", "avx512", "neon"; empty: POMONA_ISA if set, else the best the CPU has
