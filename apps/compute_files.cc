@@ -8,6 +8,8 @@
 #include "apps/muted_stream.h"
 #include "apps/views.h"
 #include "camera/ply.h"
+#include "camera/rectify.h"
+#include "core/parallel.h"
 #include "datasets/colorize.h"
 #include "datasets/disparity_file.h"
 #include "datasets/image_file.h"
@@ -54,12 +56,12 @@ std::string encodeConfidence(const Frame& frame, const std::string& extension) {
 }
 
 std::string encodeDepth(const Frame& frame, const std::string& extension) {
-  const cv::Mat depth = depthFromDisparity(frame.result.disparity, frame.inputs.calibration->stereo);
+  const cv::Mat depth = depthFromDisparity(frame.result.disparity, *frame.inputs.calibration);
   return extension == ".pfm" ? encodePfm(depth) : encodeDepthPng(depth);
 }
 
 std::string encodeCloud(const Frame& frame, const std::string&) {
-  return encodePly(frame.result.disparity, toBgr8(frame.inputs.left), frame.inputs.calibration->stereo);
+  return encodePly(frame.result.disparity, toBgr8(frame.inputs.left), *frame.inputs.calibration);
 }
 
 std::string encodeError(const Frame& frame, const std::string&) {
@@ -116,10 +118,24 @@ void requireSize(const std::string& path, cv::Size found, const cv::Mat& left) {
   requireSide(path, "height", found.height, left.rows);
 }
 
+void rectify(const ComputePaths& paths, ComputeInputs& inputs) {
+  try {
+    Rectifier rectifier(readRig(paths.rig));
+    rectifier.rectify(inputs.left, inputs.right, availableThreads());
+    inputs.left = rectifier.left();
+    inputs.right = rectifier.right();
+    inputs.mask = rectifier.rectifyMask(inputs.mask, availableThreads());
+    inputs.calibration = rectifier.calibration();
+  } catch (const std::invalid_argument& e) {
+    throw std::runtime_error(paths.rig + ": " + e.what());
+  }
+}
+
 }  // namespace
 
 void checkOutputs(const ComputePaths& paths) {
-  const std::string inputs[] = {paths.left, paths.right, paths.mask, paths.calibration, paths.ground_truth};
+  const std::string inputs[] = {paths.left,        paths.right, paths.mask,
+                                paths.calibration, paths.rig,   paths.ground_truth};
   std::vector<std::string> outputs;
   for (const OutputKind& kind : outputKinds()) {
     const std::string& path = paths.*kind.path;
@@ -154,14 +170,14 @@ ComputeInputs readInputs(const ComputePaths& paths) {
                                "; allowed: 1 channel of 8 bits");
     requireSize(paths.mask, inputs.mask.size(), inputs.left);
   }
+  if (!paths.calibration.empty()) {
+    inputs.calibration = rectificationOf(readRig(paths.calibration)).calibration;
+    requireSize(paths.calibration, {inputs.calibration->width, inputs.calibration->height}, inputs.left);
+  }
+  if (!paths.rig.empty()) rectify(paths, inputs);
   if (!paths.ground_truth.empty()) {
     inputs.ground_truth = readDisparity(paths.ground_truth);
     requireSize(paths.ground_truth, inputs.ground_truth.size(), inputs.left);
-  }
-  if (!paths.calibration.empty()) {
-    inputs.calibration = readMiddleburyCalibration(paths.calibration);
-    const StereoCalibration& stereo = inputs.calibration->stereo;
-    requireSize(paths.calibration, {stereo.width, stereo.height}, inputs.left);
   }
   return inputs;
 }

@@ -30,17 +30,22 @@ int main(int argc, char** argv) {
 
   CLI::App app("Dense disparity maps from rectified stereo pairs.", "pomona");
   app.set_version_flag("--version", "pomona " POMONA_VERSION);
-  pomona::addCalibrate(app);
   pomona::addCompute(app);
   pomona::addEval(app);
   pomona::addCompare(app);
-  pomona::addInfo(app);
-  pomona::addRender(app);
+  pomona::addCalibrate(app);
   pomona::addRig(app);
+  pomona::addRectify(app);
+  pomona::addCheck(app);
+  pomona::addRender(app);
+  pomona::addInfo(app);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty())
-      return fail("what to do? calibrate, compute, eval, compare, info, render or rig (see pomona --help)", kBadUsage);
+      return fail(
+          "what to do? compute, eval, compare, calibrate, rig, rectify, check, render or info (see pomona "
+          "--help)",
+          kBadUsage);
     if (!std::cout.flush()) return fail("standard output: cannot be written", kBadInput);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help and --version

@@ -28,8 +28,6 @@ bool within(double value, double low, double high) {  // false for NaN
 void validateCamera(const std::string& name, const CameraModel& c) {
   require(within(c.width, 0, kLongestSide), name + " width", c.width, "0 (unknown) to 32000");
   require(within(c.height, 0, kLongestSide), name + " height", c.height, "0 (unknown) to 32000");
-  require((c.width == 0) == (c.height == 0), name + " height", c.height,
-          "0 where the width is 0, else not 0");
   for (const auto& [field, f] : {std::pair(" fx", c.fx_px), std::pair(" fy", c.fy_px)})
     require(f > 0 && f <= kLargestFocal_px, name + field, f, "a number above 0, up to 1000000 px");
   require(within(c.fx_px / c.fy_px, 0.5, 2), name + " fx / fy", c.fx_px / c.fy_px, "0.5 to 2");
@@ -206,7 +204,9 @@ Rectification rectificationOf(const StereoRig& rig) {
         rig.left.width, rig.left.height};
     return none;
   }
-  require(rig.left.width > 0, "width", rig.left.width, "the images' width, to rectify by");
+  for (const auto& [side, length] :
+       {std::pair("width", rig.left.width), std::pair("height", rig.left.height)})
+    require(length > 0, side, length, "the images' size, to rectify by");
   Rectification result = bouguet(rig);
   try {
     result.calibration.validate();

@@ -1,6 +1,5 @@
 #include <array>
 #include <charconv>
-#include <filesystem>
 #include <opencv2/core.hpp>
 #include <span>
 #include <stdexcept>
@@ -11,8 +10,6 @@
 
 namespace pomona {
 namespace {
-
-namespace fs = std::filesystem;
 
 // The shortest decimals that read back as the same numbers, with commas between them.
 std::string listOf(std::span<const double> values) {
@@ -87,19 +84,11 @@ void writeRos(const std::string& folder, const StereoRig& rig) {
                                 "; allowed in camera_info: the cameras', which must "
                                 "be known");
   const OutputFile files[] = {
-      {(fs::path(folder) / "left.yaml").string(),
-       encodeCameraInfo("left", rig.left, rectification.left_rotation, projectionOf(c, false))},
-      {(fs::path(folder) / "right.yaml").string(),
+      {"left.yaml", encodeCameraInfo("left", rig.left, rectification.left_rotation, projectionOf(c, false))},
+      {"right.yaml",
        encodeCameraInfo("right", rig.right, rectification.right_rotation, projectionOf(c, true))},
   };
-  std::error_code error;
-  const bool created = fs::create_directory(folder, error);
-  try {
-    writeFiles(files);
-  } catch (...) {
-    if (created) fs::remove(folder, error);
-    throw;
-  }
+  writeFolder(folder, files);
 }
 
 }  // namespace
