@@ -54,14 +54,14 @@ MemoryMode memoryMode(const std::string& name) {
 
 SearchRange searchRange(const ComputeArguments& arguments, const ComputeInputs& inputs) {
   const int width = inputs.left.cols;
-  const int ndisp = inputs.calibration ? inputs.calibration->stereo.num_disparities : 0;
+  const int ndisp = inputs.calibration ? inputs.calibration->num_disparities : 0;
   SearchRange range{arguments.min_disparity, 0, ""};
   std::int64_t count = 0;
   if (arguments.max_disparity) {
     range.source = "--max-disparity";
     count = std::int64_t{*arguments.max_disparity} - range.min;
   } else if (ndisp > 0) {
-    range.source = "ndisp of " + arguments.paths.calibration;
+    range.source = "ndisp of " + arguments.paths.calibration + arguments.paths.rig;
     count = std::int64_t{ndisp} - range.min;
   } else {
     range.source = "estimate";
@@ -106,6 +106,10 @@ void printSummary(const ComputeArguments& arguments, const SearchRange& range, c
     if (pixels_in_state[state] > 0)
       print("  %-28s %6.2f %%", std::string(name(static_cast<PixelState>(state))).c_str(),
             percent * pixels_in_state[state]);
+  if (!std::isnan(result.row_offset_px))
+    print("rows      right view %+.2f px, %.2f px where it is worst%s", result.row_offset_px,
+          result.row_error_px,
+          result.rowsAreOff() ? ": warning: the views are not aligned; see pomona check" : "");
   print("time      %.1f ms (%s)", milliseconds, arguments.preset.c_str());
   if (arguments.timings)
     for (const StageTiming& timing : result.timings)
@@ -122,6 +126,9 @@ void printErrors(const DisparityErrors& errors) {
 }
 
 void compute(const ComputeArguments& arguments) {
+  const ComputePaths& paths = arguments.paths;
+  if (!(paths.depth.empty() && paths.cloud.empty()) && paths.calibration.empty() && paths.rig.empty())
+    throw CLI::RequiresError(paths.depth.empty() ? "--cloud" : "--depth", "--calib or --rig");
   checkOutputs(arguments.paths);
   const ComputeInputs inputs = readInputs(arguments.paths);
   const SearchRange range = searchRange(arguments, inputs);
@@ -147,13 +154,18 @@ void compute(const ComputeArguments& arguments) {
 
 void addFileOptions(CLI::App& verb, ComputePaths& paths) {
   verb.add_option("left", paths.left, "Left image, the reference: 8 or 16 bits, gray or colour")->required();
-  verb.add_option("right", paths.right, "Right image of the rectified pair")->required();
+  verb.add_option("right", paths.right, "Right image; the pair is rectified unless --rig says how to")
+      ->required();
   verb.add_option("-o,--output", paths.disparity,
                   "Disparity map: .pfm (float pixels), or .png (16 bits, KITTI's 1/256 px, 0 unknown)")
       ->required();
   verb.add_flag("--opencv-png", paths.opencv_png, "Let the .png disparity map count 1/16 px, 0 unknown");
   CLI::Option* calibration = verb.add_option("--calib", paths.calibration,
-                                             "Middlebury calib.txt: geometry, and the range if it has ndisp");
+                                             "Geometry of the rectified pair, and the range if it has ndisp: "
+                                             "Middlebury's calib.txt, or any file that "
+                                             "pomona rig shows");
+  verb.add_option("--rig", paths.rig, "The views are not rectified: rectify them first, by this rig")
+      ->excludes(calibration);
   verb.add_option("--mask", paths.mask, "8-bit gray image; pixels that are 0 stay unknown");
   CLI::Option* ground_truth =
       verb.add_option("--gt", paths.ground_truth, "True disparities (.pfm, or KITTI .png): print the error");
@@ -163,9 +175,8 @@ void addFileOptions(CLI::App& verb, ComputePaths& paths) {
   verb.add_option("--sigma", paths.sigma,
                   "Standard deviation of the disparities (.pfm, pixels, inf unknown)");
   verb.add_option("--depth", paths.depth,
-                  "Depth: metres (.pfm, inf unknown), or millimetres (16-bit .png, 0 unknown)")
-      ->needs(calibration);
-  verb.add_option("--cloud", paths.cloud, "Coloured point cloud in metres (.ply)")->needs(calibration);
+                  "Depth: metres (.pfm, inf unknown), or millimetres (16-bit .png, 0 unknown)");
+  verb.add_option("--cloud", paths.cloud, "Coloured point cloud in metres (.ply)");
   verb.add_option("--error", paths.error,
                   "Picture of the error (.png): green 0, red 4 px and more, white no disparity")
       ->needs(ground_truth);

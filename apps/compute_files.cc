@@ -9,6 +9,8 @@
 #include "apps/muted_stream.h"
 #include "apps/views.h"
 #include "camera/ply.h"
+#include "camera/rectify.h"
+#include "core/parallel.h"
 #include "datasets/colorize.h"
 #include "datasets/image_file.h"
 #include "datasets/input_file.h"
@@ -59,12 +61,12 @@ std::string encodeSigma(const Frame& frame, const std::string&) {
 }
 
 std::string encodeDepth(const Frame& frame, const std::string& extension) {
-  const cv::Mat depth = depthFromDisparity(frame.result.disparity, frame.inputs.calibration->stereo);
+  const cv::Mat depth = depthFromDisparity(frame.result.disparity, *frame.inputs.calibration);
   return extension == ".pfm" ? encodePfm(depth) : encodeDepthPng(depth);
 }
 
 std::string encodeCloud(const Frame& frame, const std::string&) {
-  return encodePly(frame.result.disparity, toBgr8(frame.inputs.left), frame.inputs.calibration->stereo);
+  return encodePly(frame.result.disparity, toBgr8(frame.inputs.left), *frame.inputs.calibration);
 }
 
 std::string encodeError(const Frame& frame, const std::string&) {
@@ -101,10 +103,24 @@ void requireExtension(const OutputKind& kind, const std::string& path) {
   throw std::runtime_error(std::string(kind.option) + " is '" + path + "'; allowed extensions: " + allowed);
 }
 
+void rectify(const ComputePaths& paths, ComputeInputs& inputs) {
+  try {
+    Rectifier rectifier(readRig(paths.rig));
+    rectifier.rectify(inputs.left, inputs.right, availableThreads());
+    inputs.left = rectifier.left();
+    inputs.right = rectifier.right();
+    inputs.mask = rectifier.rectifyMask(inputs.mask, availableThreads());
+    inputs.calibration = rectifier.calibration();
+  } catch (const std::invalid_argument& e) {
+    throw std::runtime_error(paths.rig + ": " + e.what());
+  }
+}
+
 }  // namespace
 
 void checkOutputs(const ComputePaths& paths) {
-  const std::string inputs[] = {paths.left, paths.right, paths.mask, paths.calibration, paths.ground_truth};
+  const std::string inputs[] = {paths.left,        paths.right, paths.mask,
+                                paths.calibration, paths.rig,   paths.ground_truth};
   std::vector<std::string> outputs;
   for (const OutputKind& kind : outputKinds()) {
     const std::string& path = paths.*kind.path;
@@ -129,8 +145,12 @@ ComputeInputs readInputs(const ComputePaths& paths) {
   std::tie(inputs.left, inputs.right) = readViews(paths.left, paths.right);
   const cv::Size size = inputs.left.size();
   if (!paths.mask.empty()) inputs.mask = readByteMap(paths.mask, size);
-  if (!paths.ground_truth.empty()) inputs.ground_truth = readTruth(paths.ground_truth, size);
-  if (!paths.calibration.empty()) inputs.calibration = readCalibration(paths.calibration, size);
+  if (!paths.calibration.empty()) {
+    inputs.calibration = rectificationOf(readRig(paths.calibration)).calibration;
+    requireCalibrationFits(paths.calibration, *inputs.calibration, size);
+  }
+  if (!paths.rig.empty()) rectify(paths, inputs);
+  if (!paths.ground_truth.empty()) inputs.ground_truth = readTruth(paths.ground_truth, inputs.left.size());
   return inputs;
 }
 

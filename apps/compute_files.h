@@ -7,22 +7,23 @@
 #include <vector>
 
 #include "datasets/atomic_file.h"
-#include "datasets/middlebury_calib.h"
+#include "pomona/calibration.h"
 #include "pomona/disparity.h"
 
 namespace pomona {
 
 /// File names as given on the command line; empty where not given.
 struct ComputePaths {
-  std::string left, right, mask, calibration, ground_truth;
+  std::string left, right, mask, calibration, rig, ground_truth;
   std::string disparity, color, state, confidence, sigma, depth, cloud, error;
   bool opencv_png = false;  ///< a .png disparity map counts sixteenths of a pixel, not KITTI's 256ths
 };
 
-/// mask, ground_truth and calibration are absent where not given.
+/// mask, ground_truth and calibration are absent where not given. With a rig, the views and the mask are
+/// rectified already.
 struct ComputeInputs {
   cv::Mat left, right, mask, ground_truth;
-  std::optional<MiddleburyCalibration> calibration;
+  std::optional<StereoCalibration> calibration;
 };
 
 /// Refuses outputs of a format that cannot be written, in a place that cannot be written, named twice, or

@@ -33,12 +33,19 @@ int main(int argc, char** argv) {
   pomona::addCompute(app);
   pomona::addEval(app);
   pomona::addCompare(app);
-  pomona::addInfo(app);
+  pomona::addCalibrate(app);
+  pomona::addRig(app);
+  pomona::addRectify(app);
+  pomona::addCheck(app);
   pomona::addRender(app);
+  pomona::addInfo(app);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty())
-      return fail("what to do? compute, eval, compare, info or render (see pomona --help)", kBadUsage);
+      return fail(
+          "what to do? compute, eval, compare, calibrate, rig, rectify, check, render or info (see pomona "
+          "--help)",
+          kBadUsage);
     if (!std::cout.flush()) return fail("standard output: cannot be written", kBadInput);
   } catch (const CLI::ConversionError& e) {
     return fail(std::string(e.what()) + "; allowed: a number (of 32 bits, where whole)", kBadInput);

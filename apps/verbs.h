@@ -8,10 +8,14 @@ class App;
 
 namespace pomona {
 
+void addCalibrate(CLI::App& app);
+void addCheck(CLI::App& app);
 void addCompare(CLI::App& app);
 void addCompute(CLI::App& app);
 void addEval(CLI::App& app);
 void addInfo(CLI::App& app);
+void addRectify(CLI::App& app);
 void addRender(CLI::App& app);
+void addRig(CLI::App& app);
 
 }  // namespace pomona

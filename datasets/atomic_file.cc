@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <list>
 #include <stdexcept>
+#include <vector>
 
 namespace pomona {
 namespace {
@@ -120,6 +121,20 @@ void writeFiles(std::span<const OutputFile> files) {
 void writeFile(const std::string& path, std::string_view bytes) {
   const OutputFile file{path, std::string(bytes)};
   writeFiles({&file, 1});
+}
+
+void writeFolder(const std::string& folder, std::span<const OutputFile> files) {
+  std::vector<OutputFile> inside;
+  for (const OutputFile& file : files)
+    inside.push_back({(fs::path(folder) / file.path).string(), file.bytes});
+  std::error_code error;
+  const bool created = fs::create_directory(folder, error);
+  try {
+    writeFiles(inside);
+  } catch (...) {
+    if (created) fs::remove(folder, error);
+    throw;
+  }
 }
 
 }  // namespace pomona

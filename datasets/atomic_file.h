@@ -23,4 +23,8 @@ void writeFiles(std::span<const OutputFile> files);
 
 void writeFile(const std::string& path, std::string_view bytes);
 
+/// The same for `files` whose paths are names inside `folder`, which is made if it is not there, and goes
+/// again if that fails.
+void writeFolder(const std::string& folder, std::span<const OutputFile> files);
+
 }  // namespace pomona

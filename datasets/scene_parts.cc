@@ -70,12 +70,15 @@ cv::Mat readTruth(const std::string& path, cv::Size left) {
   return truth;
 }
 
+void requireCalibrationFits(const std::string& path, const StereoCalibration& calibration, cv::Size left) {
+  const cv::Size stated(calibration.width ? calibration.width : left.width,
+                        calibration.height ? calibration.height : left.height);
+  requireSize(path, stated, left, "is for images of ");
+}
+
 MiddleburyCalibration readCalibration(const std::string& path, cv::Size left) {
   MiddleburyCalibration calibration = readMiddleburyCalibration(path);
-  const StereoCalibration& stereo = calibration.stereo;
-  const cv::Size stated(stereo.width ? stereo.width : left.width,
-                        stereo.height ? stereo.height : left.height);
-  requireSize(path, stated, left, "is for images of ");
+  requireCalibrationFits(path, calibration.stereo, left);
   return calibration;
 }
 

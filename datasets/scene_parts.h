@@ -19,7 +19,10 @@ cv::Mat readByteMap(const std::string& path, cv::Size left);
 /// readDisparity(), of size `left`, with known pixels, all of them within four image widths of zero.
 cv::Mat readTruth(const std::string& path, cv::Size left);
 
-/// The calibration; width and height, where it states them, are those of `left`.
+/// Width and height, where the calibration read from `path` states them, must be those of `left`.
+void requireCalibrationFits(const std::string& path, const StereoCalibration& calibration, cv::Size left);
+
+/// The calibration, fitting `left`.
 MiddleburyCalibration readCalibration(const std::string& path, cv::Size left);
 
 }  // namespace pomona

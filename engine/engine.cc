@@ -1,8 +1,13 @@
 #include "pomona/engine.h"
 
 #include <cstdint>
+#include <limits>
+#include <optional>
+#include <stdexcept>
 #include <utility>
 
+#include "camera/rectify.h"
+#include "camera/row_check.h"
 #include "core/cpu.h"
 #include "core/parallel.h"
 #include "engine/input.h"
@@ -23,7 +28,11 @@ cv::Mat shared(Image<T>& image, int type) {
 struct StereoEngine::State {
   Options options;
   int threads;
+  std::optional<StereoCalibration> calibration;
+  std::optional<Rectifier> rectifier;  // if the views need one
+  cv::Mat left, right;                 // rectified
   InputPair input;
+  RowCheck row_check;
   Pipeline pipeline;
   Trust trust;
   StereoResult result;
@@ -34,8 +43,33 @@ struct StereoEngine::State {
         pipeline(o, chooseIsa(o.isa), threads) {
     result.timings.reserve(32);
   }
+  cv::Mat rectify(const cv::Mat& left_view, const cv::Mat& right_view, const cv::Mat& mask);
+  void checkRows();
   void publish();
 };
+
+/// Sets `left` and `right`; returns the mask of the rectified left view.
+cv::Mat StereoEngine::State::rectify(const cv::Mat& left_view, const cv::Mat& right_view,
+                                     const cv::Mat& mask) {
+  if (!rectifier) {
+    left = left_view;
+    right = right_view;
+    return mask;
+  }
+  rectifier->rectify(left_view, right_view, threads);
+  left = rectifier->left();
+  right = rectifier->right();
+  return rectifier->rectifyMask(mask, threads);
+}
+
+void StereoEngine::State::checkRows() {
+  result.row_offset_px = result.row_error_px = std::numeric_limits<float>::quiet_NaN();
+  if (!options.row_check) return;
+  const RowOffsets rows = row_check.measure(input.views().left, input.views().right, options.min_disparity,
+                                            options.num_disparities);
+  result.row_offset_px = rows.median_px;
+  result.row_error_px = rows.worst_px;
+}
 
 void StereoEngine::State::publish() {
   MatchMaps& maps = pipeline.maps();
@@ -49,6 +83,10 @@ StereoEngine::StereoEngine(const Options& options) {
   options.validate();
   state_ = std::make_unique<State>(options);
 }
+StereoEngine::StereoEngine(const Options& options, const StereoRig& rig) : StereoEngine(options) {
+  state_->calibration = rectificationOf(rig).calibration;
+  if (!rig.isRectified()) state_->rectifier.emplace(rig);
+}
 StereoEngine::~StereoEngine() = default;
 StereoEngine::StereoEngine(StereoEngine&&) noexcept = default;
 StereoEngine& StereoEngine::operator=(StereoEngine&&) noexcept = default;
@@ -57,13 +95,29 @@ const Options& StereoEngine::options() const {
   return state_->options;
 }
 
-const StereoResult& StereoEngine::compute(const cv::Mat& left, const cv::Mat& right, const cv::Mat& mask) {
+const StereoCalibration& StereoEngine::calibration() const {
+  if (!state_->calibration) throw std::logic_error("calibration: the engine was made without a rig");
+  return *state_->calibration;
+}
+const cv::Mat& StereoEngine::leftView() const {
+  return state_->left;
+}
+const cv::Mat& StereoEngine::rightView() const {
+  return state_->right;
+}
+
+const StereoResult& StereoEngine::compute(const cv::Mat& left_view, const cv::Mat& right_view,
+                                          const cv::Mat& given_mask) {
   State& s = *state_;
   StageClock clock(s.result.timings);
-  s.input.set(left, right, s.threads);
-  requireRangeFits(s.options.min_disparity, s.options.num_disparities, left.cols);
-  requireMaskFits(mask, left);
+  const cv::Mat mask = s.rectify(left_view, right_view, given_mask);
+  if (s.rectifier) clock.lap("rectification");
+  s.input.set(s.left, s.right, s.threads);
+  requireRangeFits(s.options.min_disparity, s.options.num_disparities, s.left.cols);
+  requireMaskFits(mask, s.left);
   clock.lap("input");
+  s.checkRows();
+  if (s.options.row_check) clock.lap("row check");
   s.pipeline.run(s.input.views(), maskView(mask), clock);
   s.trust.estimate(s.pipeline.maps(), s.pipeline.largestCostSum(), s.threads);
   if (s.options.mode == OutputMode::kSparse && s.options.validation.min_confidence > 0)

@@ -77,6 +77,25 @@ TEST(Engine, FramesAfterTheFirstAllocateNothing) {
         EXPECT_EQ(allocations - before, 0)
             << preset << " mode " << static_cast<int>(mode) << " threads " << threads;
       }
+  {
+    // The same views, taken as an unrectified camera's: what is measured is the rectifying.
+    StereoRig rig = rigOf(first.calibration);
+    rig.rectification.reset();
+    rig.left.distortion[0] = rig.right.distortion[0] = -0.1;
+    Options o;
+    o.num_disparities = 36;
+    o.threads = 3;
+    StereoEngine engine(o, rig);
+    const cv::Mat mask(first.left.image.size(), CV_8UC1, cv::Scalar(255));
+    engine.compute(first.left.image, first.right.image, mask);
+    engine.compute(other.left.image, other.right.image, mask);
+    const long before = allocations;
+    for (int frame = 0; frame < 10; ++frame) {
+      const RenderedPair& pair = frame % 2 ? first : other;
+      engine.compute(pair.left.image, pair.right.image, mask);
+    }
+    EXPECT_EQ(allocations - before, 0) << "with a rig";
+  }
   const long before = allocations;
   std::free(std::malloc(10));
   EXPECT_GT(allocations - before, 0) << "the counter does not count";

@@ -1,7 +1,9 @@
 // The result of dense stereo matching: a disparity, a state and a confidence for every pixel.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <opencv2/core.hpp>
 #include <string_view>
 #include <vector>
@@ -23,11 +25,19 @@ struct StereoResult {
   /// CV_32F in [0, 1]: the probability that the disparity is right to within a pixel, as rendered scenes have
   /// it (bench/confidence); 0 where it is unknown.
   cv::Mat confidence;
-  /// CV_32F, pixels: the standard deviation of the disparity if it is right to within a pixel; NaN where it
-  /// is unknown. Filled pixels have larger ones than measured pixels.
+  /// CV_32F, pixels: the disparities of 68.3 % of pixels like this one are off by at most this, as with one
+  /// sigma of a normal distribution; NaN where the disparity is unknown. Filled pixels have larger ones.
   cv::Mat sigma_px;
+  /// Vertical offset y_right - y_left between the views, which should be 0: median over some hundred points,
+  /// and the largest anywhere in the image, signless. Beyond 0.5 px matching degrades without other notice:
+  /// the camera wants a new calibration. NaN where Options::row_check is off or too few points could be
+  /// matched.
+  float row_offset_px = std::numeric_limits<float>::quiet_NaN();
+  float row_error_px = std::numeric_limits<float>::quiet_NaN();
   std::vector<StageTiming> timings;  ///< in the order the stages ran
 
+  /// Whether the rows of the views are known not to match.
+  bool rowsAreOff() const { return std::abs(row_offset_px) > 0.5f || row_error_px > 1.0f; }
   PixelState stateAt(int y, int x) const { return static_cast<PixelState>(state.at<std::uint8_t>(y, x)); }
 };
 

@@ -134,6 +134,9 @@ struct Options {
   CompletionOptions completion;
   SecondPassOptions second_pass;
 
+  /// Measure the vertical offset between the views (StereoResult::row_offset_px): about 1 ms.
+  bool row_check = true;
+
   MemoryMode memory = MemoryMode::kAutomatic;
   int threads = 0;  ///< worker threads; 0: one per available processor; at most 1024
   std::string

@@ -1,0 +1,83 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "apps/muted_stream.h"
+#include "apps/verbs.h"
+#include "apps/views.h"
+#include "camera/row_check.h"
+#include "datasets/image_file.h"
+#include "engine/input.h"
+#include "pomona/disparity.h"
+
+namespace pomona {
+namespace {
+
+struct CheckArguments {
+  std::string left, right;
+  int min_disparity = 0, max_disparity = 0;
+};
+
+Image<std::uint8_t> readGray(const std::string& path) {
+  const MutedErrorStream muted;
+  const cv::Mat bgr = toBgr8(readImage(path));
+  Image<std::uint8_t> gray(bgr.cols, bgr.rows);
+  for (int y = 0; y < bgr.rows; ++y) grayFromBgr(bgr.ptr<std::uint8_t>(y), bgr.cols, gray.row(y));
+  return gray;
+}
+
+void check(const CheckArguments& arguments) {
+  const Image<std::uint8_t> left = readGray(arguments.left), right = readGray(arguments.right);
+  if (left.width() != right.width() || left.height() != right.height())
+    throw std::runtime_error(arguments.right + ": is " + std::to_string(right.width()) + "x" +
+                             std::to_string(right.height()) + "; the left image is " +
+                             std::to_string(left.width()) + "x" + std::to_string(left.height()));
+  constexpr int kUsualShare = 4;  // of the width
+  constexpr int kReach_px = 40;   // there is time
+  const int end = arguments.max_disparity > arguments.min_disparity
+                      ? arguments.max_disparity
+                      : arguments.min_disparity + std::max(16, left.width() / kUsualShare);
+  RowCheck row_check;
+  const RowOffsets rows = row_check.measure(left.view(), right.view(), arguments.min_disparity,
+                                            end - arguments.min_disparity, kReach_px);
+  std::cout << "points    " << rows.points << " matched\n";
+  if (std::isnan(rows.median_px)) {
+    std::cout << "rows      unknown: fewer than 12 points have a match within " << kReach_px
+              << " px of their row\n";
+    return;
+  }
+  std::array<char, 128> text;
+  std::snprintf(text.data(), text.size(),
+                "rows      right view %+.2f px (+ is lower), %.2f px where it is worst", rows.median_px,
+                rows.worst_px);
+  std::cout << text.data() << '\n';
+  StereoResult judged;
+  judged.row_offset_px = rows.median_px;
+  judged.row_error_px = rows.worst_px;
+  std::cout << (judged.rowsAreOff()
+                    ? "verdict   the views are not aligned: calibrate, or rectify them (--rig)\n"
+                    : "verdict   aligned\n");
+}
+
+}  // namespace
+
+void addCheck(CLI::App& app) {
+  CLI::App* verb = app.add_subcommand("check", "Measure whether the rows of a rectified pair match");
+  const auto arguments = std::make_shared<CheckArguments>();  // lives as long as the callback
+  verb->add_option("left", arguments->left, "Left image")->required();
+  verb->add_option("right", arguments->right, "Right image")->required();
+  verb->add_option("--min-disparity", arguments->min_disparity, "Smallest disparity expected (default 0)")
+      ->check(CLI::Range(-16000, 16000));
+  verb->add_option("--max-disparity", arguments->max_disparity,
+                   "Largest one (default: a quarter of the width more)")
+      ->check(CLI::Range(-16000, 16000));
+  verb->callback([arguments] { check(*arguments); });
+}
+
+}  // namespace pomona

@@ -1,0 +1,24 @@
+// How a rig is named on the command line.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "pomona/rig.h"
+
+namespace CLI {
+class App;
+}
+
+namespace pomona {
+
+struct RigPaths {
+  std::vector<std::string> files;  ///< one file or folder, or left and right
+  std::string unit;                ///< "m", "cm", "mm"; empty: as the format prescribes
+  std::vector<int> cameras;        ///< none, or left and right
+};
+
+void addRigPaths(CLI::App& verb, RigPaths& paths);
+StereoRig readRig(const RigPaths& paths);
+
+}  // namespace pomona

@@ -1,0 +1,257 @@
+#include "camera/row_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <utility>
+
+namespace pomona {
+namespace {
+
+constexpr int kColumns = 16, kRows = 10;  // one point from each cell of this grid
+constexpr int kBlock = 8;                 // side of the blocks compared there
+constexpr int kFewestPoints = 12;
+
+using Bytes = ImageView<const std::uint8_t>;
+
+struct Place {
+  float x, y;
+};
+struct Match {
+  Place left, right;  // pixels of the given views
+};
+
+int absoluteDifference(Bytes a, int ax, int ay, Bytes b, int bx, int by) {
+  int sum = 0;
+  for (int row = 0; row < kBlock; ++row) {
+    const std::uint8_t* p = a.row(ay - kBlock / 2 + row) + ax - kBlock / 2;
+    const std::uint8_t* q = b.row(by - kBlock / 2 + row) + bx - kBlock / 2;
+    for (int i = 0; i < kBlock; ++i) sum += std::abs(p[i] - q[i]);
+  }
+  return sum;
+}
+
+// How well a block tells its place: the weaker one of its changes along x and along y.
+int texture(Bytes view, int x, int y) {
+  int along_x = 0, along_y = 0;
+  for (int row = y - 3; row < y + 3; ++row) {
+    const std::uint8_t *p = view.row(row), *below = view.row(row + 1);
+    for (int i = x - 3; i < x + 3; ++i) {
+      along_x += std::abs(p[i + 1] - p[i]);
+      along_y += std::abs(below[i] - p[i]);
+    }
+  }
+  return std::min(along_x, along_y);
+}
+
+// The point with the most texture in a cell of the grid, at least `margin` from the border; false if none has
+// any.
+bool findTexture(Bytes view, int cell, int margin, int& x, int& y) {
+  constexpr int kStep = 4, kLeastTexture = 80;
+  const int column = cell % kColumns, row = cell / kColumns, w = view.width, h = view.height;
+  int best = kLeastTexture;
+  const int x_begin = std::max(margin, column * w / kColumns),
+            x_end = std::min(w - margin, (column + 1) * w / kColumns);
+  const int y_begin = std::max(margin, row * h / kRows), y_end = std::min(h - margin, (row + 1) * h / kRows);
+  for (int py = y_begin; py < y_end; py += kStep)
+    for (int px = x_begin; px < x_end; px += kStep)
+      if (const int t = texture(view, px, py); t > best) best = t, x = px, y = py;
+  return best > kLeastTexture;
+}
+
+struct Range {
+  int begin, end;
+};
+
+// The best place in the right view, unless another disparity is about as good.
+bool search(Bytes left, Bytes right, int x, int y, Range disparities, int reach, int& best_x, int& best_y) {
+  const Range columns{std::max(kBlock / 2, x - disparities.end + 1),
+                      std::min(right.width - kBlock / 2, x - disparities.begin + 1)};
+  if (columns.end - columns.begin < 1) return false;
+  std::array<int, 1024> cost_at;  // of the best row, by column: disparities of a reduced view are few
+  const int count = std::min<int>(columns.end - columns.begin, cost_at.size());
+  int best = std::numeric_limits<int>::max();
+  for (int i = 0; i < count; ++i) {
+    int lowest = std::numeric_limits<int>::max();
+    for (int dy = -reach; dy <= reach; ++dy) {
+      const int cost = absoluteDifference(left, x, y, right, columns.begin + i, y + dy);
+      lowest = std::min(lowest, cost);
+      if (cost < best) best = cost, best_x = columns.begin + i, best_y = y + dy;
+    }
+    cost_at[static_cast<std::size_t>(i)] = lowest;
+  }
+  constexpr int kNeighbours = 2, kWorstCost = 12 * kBlock * kBlock;
+  for (int i = 0; i < count; ++i)
+    if (std::abs(columns.begin + i - best_x) > kNeighbours &&
+        4 * best > 3 * cost_at[static_cast<std::size_t>(i)])
+      return false;
+  return best < kWorstCost;
+}
+
+float sample(Bytes view, float x, float y) {
+  const int ix = static_cast<int>(x), iy = static_cast<int>(y);
+  const float fx = x - static_cast<float>(ix), fy = y - static_cast<float>(iy);
+  const std::uint8_t *p = view.row(iy) + ix, *below = view.row(iy + 1) + ix;
+  return (static_cast<float>(p[0]) * (1 - fx) + static_cast<float>(p[1]) * fx) * (1 - fy) +
+         (static_cast<float>(below[0]) * (1 - fx) + static_cast<float>(below[1]) * fx) * fy;
+}
+
+// Moves `place` in the right view to where it looks like the left view around (x, y), brightness aside. False
+// if that does not settle, leads away, or leaves the view.
+bool settle(Bytes left, Bytes right, int x, int y, Place& place) {
+  constexpr int kRadius = 5, kSide = 2 * kRadius + 1, kMostSteps = 5;
+  constexpr float kFarthest = 3, kSettled = 0.03f, kLeastTexture = 8 * kSide * kSide;
+  if (x < kRadius + 1 || y < kRadius + 1 || x + kRadius + 1 >= left.width || y + kRadius + 1 >= left.height)
+    return false;
+  std::array<float, kSide * kSide> value, gx, gy;
+  float xx = 0, xy = 0, yy = 0, mean = 0, mean_x = 0, mean_y = 0;
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const int px = x - kRadius + i % kSide, py = y - kRadius + i / kSide;
+    const auto k = static_cast<std::size_t>(i);
+    value[k] = left.at(py, px);
+    gx[k] = static_cast<float>(left.at(py, px + 1) - left.at(py, px - 1)) / 2;
+    gy[k] = static_cast<float>(left.at(py + 1, px) - left.at(py - 1, px)) / 2;
+    mean += value[k], mean_x += gx[k], mean_y += gy[k];
+  }
+  constexpr float kCount = kSide * kSide;
+  mean /= kCount, mean_x /= kCount, mean_y /= kCount;
+  for (std::size_t k = 0; k < gx.size(); ++k) {  // gradients of the brightness above its mean
+    gx[k] -= mean_x, gy[k] -= mean_y;
+    xx += gx[k] * gx[k], xy += gx[k] * gy[k], yy += gy[k] * gy[k];
+  }
+  const float determinant = xx * yy - xy * xy;
+  if (!(yy > kLeastTexture && xx > kLeastTexture && determinant > 0.1f * xx * yy)) return false;
+
+  const Place begin = place;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const float low = kRadius, right_end = static_cast<float>(right.width - kRadius - 2),
+                bottom_end = static_cast<float>(right.height - kRadius - 2);
+    if (!(place.x >= low && place.y >= low && place.x <= right_end && place.y <= bottom_end)) return false;
+    float ex = 0, ey = 0;
+    for (int i = 0; i < kSide * kSide; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      const float seen = sample(right, place.x + static_cast<float>(i % kSide - kRadius),
+                                place.y + static_cast<float>(i / kSide - kRadius));
+      ex += gx[k] * (value[k] - mean - seen);  // the mean of `seen` drops out: the gradients sum to 0
+      ey += gy[k] * (value[k] - mean - seen);
+    }
+    const float dx = (yy * ex - xy * ey) / determinant, dy = (xx * ey - xy * ex) / determinant;
+    place.x += dx, place.y += dy;
+    if (std::abs(place.x - begin.x) > kFarthest || std::abs(place.y - begin.y) > kFarthest) return false;
+    if (std::abs(dx) < kSettled && std::abs(dy) < kSettled) return true;
+  }
+  return false;
+}
+
+// Offset at (x, y) from the centre, in half widths and half heights: c[0] + c[1] x + c[2] y.
+using Plane = std::array<double, 3>;
+
+// The plane that fits most points: least squares, with weights that fade out for those far off, which are
+// mismatches.
+Plane fitPlane(const Match* matches, int count, int width, int height, double median_px) {
+  Plane plane{median_px, 0, 0};
+  for (const double scale_px : {4.0, 2.0, 1.0, 0.5, 0.5}) {
+    double a[3][4] = {};
+    for (int i = 0; i < count; ++i) {
+      const Match& m = matches[i];
+      const double row[3] = {1, 2.0 * m.left.x / width - 1, 2.0 * m.left.y / height - 1};
+      const double dy = m.right.y - m.left.y;
+      const double off = (dy - plane[0] - plane[1] * row[1] - plane[2] * row[2]) / scale_px;
+      const double weight = 1 / ((1 + off * off) * (1 + off * off));
+      for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 3; ++c) a[r][c] += weight * row[r] * row[c];
+        a[r][3] += weight * row[r] * dy;
+      }
+    }
+    // A little stiffness, so that points in one part of the image don't swing the rest.
+    a[1][1] += 1, a[2][2] += 1;
+    for (int pivot = 0; pivot < 3; ++pivot)  // Gauss and Jordan; the matrix is positive definite
+      for (int r = 0; r < 3; ++r) {
+        if (r == pivot) continue;
+        const double factor = a[r][pivot] / a[pivot][pivot];
+        for (int c = pivot; c < 4; ++c) a[r][c] -= factor * a[pivot][c];
+      }
+    plane = {a[0][3] / a[0][0], a[1][3] / a[1][1], a[2][3] / a[2][2]};
+  }
+  return plane;
+}
+
+RowOffsets summary(const Match* matches, int count, int width, int height) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  if (count < kFewestPoints) return {nan, nan, count};
+  std::array<float, kColumns * kRows> dy;
+  for (int i = 0; i < count; ++i) dy[static_cast<std::size_t>(i)] = matches[i].right.y - matches[i].left.y;
+  std::sort(dy.begin(), dy.begin() + count);
+  const float median = dy[static_cast<std::size_t>(count / 2)];
+  const Plane plane = fitPlane(matches, count, width, height, median);
+  const double worst = std::abs(plane[0]) + std::abs(plane[1]) + std::abs(plane[2]);
+  return {median, static_cast<float>(worst), count};
+}
+
+}  // namespace
+
+void RowCheck::reduce(ImageView<const std::uint8_t> in, int scale, View& view) {
+  const int width = in.width / scale, height = in.height / scale, area = scale * scale;
+  view.coarse.resize(width, height);
+  view.contrast.resize(width, height);
+  view.sums.resize(in.width, 1);
+  std::uint16_t* sums = view.sums.row(0);
+  for (int y = 0; y < height; ++y) {
+    std::fill(sums, sums + in.width, std::uint16_t{0});
+    for (int i = 0; i < scale; ++i) {
+      const std::uint8_t* p = in.row(y * scale + i);
+      for (int x = 0; x < in.width; ++x) sums[x] = static_cast<std::uint16_t>(sums[x] + p[x]);
+    }
+    std::uint8_t* out = view.coarse.row(y);
+    for (int x = 0; x < width; ++x) {
+      int sum = 0;
+      for (int i = 0; i < scale; ++i) sum += sums[x * scale + i];
+      out[x] = static_cast<std::uint8_t>((sum + area / 2) / area);
+    }
+  }
+  // A pixel against those 3 to the left, right, above and below.
+  for (int y = 0; y < height; ++y) {
+    const std::uint8_t *p = view.coarse.row(y), *above = view.coarse.row(std::max(0, y - 3)),
+                       *below = view.coarse.row(std::min(height - 1, y + 3));
+    std::uint8_t* out = view.contrast.row(y);
+    for (int x = 0; x < width; ++x) {
+      const int surroundings = p[std::max(0, x - 3)] + p[std::min(width - 1, x + 3)] + above[x] + below[x];
+      out[x] = static_cast<std::uint8_t>(std::clamp(128 + (4 * p[x] - surroundings) / 4, 0, 255));
+    }
+  }
+}
+
+RowOffsets RowCheck::measure(Bytes left, Bytes right, int min_disparity, int num_disparities, int reach_px) {
+  const int scale = left.width >= 800 ? 4 : left.width >= 400 ? 2 : 1;
+  const int reach = std::max(1, reach_px / scale);
+  reduce(left, scale, left_);
+  reduce(right, scale, right_);
+  const Bytes left_contrast = std::as_const(left_.contrast).view(),
+              right_contrast = std::as_const(right_.contrast).view();
+  const Bytes left_coarse = std::as_const(left_.coarse).view(),
+              right_coarse = std::as_const(right_.coarse).view();
+  const Range disparities{min_disparity / scale - 1, (min_disparity + num_disparities) / scale + 2};
+
+  std::array<Match, kColumns * kRows> matches;
+  int count = 0;
+  for (int cell = 0; cell < kColumns * kRows; ++cell) {
+    int x = 0, y = 0, right_x = 0, right_y = 0;
+    if (!findTexture(left_contrast, cell, kBlock / 2 + reach, x, y)) continue;
+    if (!search(left_contrast, right_contrast, x, y, disparities, reach, right_x, right_y)) continue;
+    Place place{static_cast<float>(right_x), static_cast<float>(right_y)};
+    if (!settle(left_coarse, right_coarse, x, y, place)) continue;
+    // The centre of a reduced pixel lies between full ones: take the one above and to the left of it.
+    const int full_x = x * scale + (scale - 1) / 2, full_y = y * scale + (scale - 1) / 2;
+    const auto s = static_cast<float>(scale);
+    Place full{static_cast<float>(full_x) + s * (place.x - static_cast<float>(x)),
+               static_cast<float>(full_y) + s * (place.y - static_cast<float>(y))};
+    if (!settle(left, right, full_x, full_y, full)) continue;
+    matches[static_cast<std::size_t>(count++)] = {{static_cast<float>(full_x), static_cast<float>(full_y)},
+                                                  full};
+  }
+  return summary(matches.data(), count, left.width, left.height);
+}
+
+}  // namespace pomona

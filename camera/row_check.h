@@ -1,0 +1,43 @@
+// Are the views of a pair aligned row by row? Matching along rows fails silently where they are not.
+#pragma once
+
+#include <cstdint>
+
+#include "core/image.h"
+
+namespace pomona {
+
+struct RowOffsets {
+  /// Median of y_right - y_left over the points: positive where the right view shows things lower. NaN if
+  /// fewer than 12 points could be matched.
+  float median_px;
+  /// The largest |y_right - y_left| in any corner of the image, by a plane fitted to the points: notices a
+  /// camera that is turned, too. NaN where median_px is.
+  float worst_px;
+  int points;  ///< that were matched, at most 160
+};
+
+/// Matches up to 160 well-textured points of the left view in two dimensions: by sums of absolute differences
+/// in views reduced to a quarter (a half below 800 px of width, not at all below 400), then by Lucas &
+/// Kanade's method (1981) there and at full size. One thread computes, so that the result is the same
+/// anywhere; keeps its memory between frames.
+class RowCheck {
+ public:
+  /// `left`, `right`: gray, of equal size. Disparities are looked for from `min_disparity` on,
+  /// `num_disparities` of them, and rows up to `reach_px` up and down; the time grows with both.
+  RowOffsets measure(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,
+                     int min_disparity, int num_disparities, int reach_px = 8);
+
+ private:
+  struct View {
+    Image<std::uint8_t> coarse;  // mean of scale x scale pixels
+    Image<std::uint8_t>
+        contrast;               // 128 + what stands out from its surroundings, for matching across exposures
+    Image<std::uint16_t> sums;  // one row
+  };
+  static void reduce(ImageView<const std::uint8_t> in, int scale, View& view);
+
+  View left_, right_;
+};
+
+}  // namespace pomona

@@ -1,0 +1,166 @@
+// The measured vertical offset against offsets that were put in.
+#include "camera/row_check.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <opencv2/imgproc.hpp>
+
+#include "datasets/image_file.h"
+#include "datasets/named_scenes.h"
+#include "datasets/render.h"
+#include "pomona/engine.h"
+
+namespace pomona {
+namespace {
+
+ImageView<const std::uint8_t> viewOf(const cv::Mat& m) {
+  return {m.ptr<std::uint8_t>(), m.cols, m.rows, static_cast<std::ptrdiff_t>(m.step1())};
+}
+
+cv::Mat gray(const cv::Mat& image) {
+  cv::Mat result;
+  cv::cvtColor(image, result, cv::COLOR_BGR2GRAY);
+  return result;
+}
+
+// The view `shift_px` lower, and turned by `turn` radians about its centre.
+cv::Mat moved(const cv::Mat& view, double shift_px, double turn = 0) {
+  const double cx = (view.cols - 1) / 2.0, cy = (view.rows - 1) / 2.0, c = std::cos(turn), s = std::sin(turn);
+  const cv::Matx23d m(c, -s, cx - c * cx + s * cy, s, c, cy - s * cx - c * cy + shift_px);
+  cv::Mat result;
+  cv::warpAffine(view, result, m, view.size(), cv::INTER_CUBIC, cv::BORDER_REFLECT);
+  return result;
+}
+
+// Gray views of a scene; drawing them takes a while, so each size is drawn once.
+struct Views {
+  cv::Mat left, right;
+};
+const Views& scene(int width, int height) {
+  static std::map<std::pair<int, int>, Views> drawn;
+  Views& views = drawn[{width, height}];
+  if (views.left.empty()) {
+    const RenderedPair pair = render(namedScene("boxes", 3, width, height, width / 10));
+    views = {gray(pair.left.image), gray(pair.right.image)};
+  }
+  return views;
+}
+
+RowOffsets measure(const cv::Mat& left, const cv::Mat& right, int min_disparity, int num_disparities) {
+  RowCheck check;
+  return check.measure(viewOf(left), viewOf(right), min_disparity, num_disparities);
+}
+
+TEST(RowCheck, FindsTheOffsetThatWasPutIn) {
+  for (const auto& [width, height, reach] : {std::tuple(1280, 720, 8.0), std::tuple(640, 480, 8.0)})
+    for (const double share : {0.0, 0.1, -0.3, 0.75, -0.95}) {
+      const Views& views = scene(width, height);
+      const double shift_px = share * reach;
+      const RowOffsets r = measure(views.left, moved(views.right, shift_px), 0, width / 10);
+      EXPECT_NEAR(r.median_px, shift_px, 0.1) << width;
+      EXPECT_NEAR(r.worst_px, std::abs(shift_px), 0.35) << width;
+      EXPECT_GE(r.points, 30) << width;
+    }
+}
+
+TEST(RowCheck, LooksAsFarAsItIsTold) {
+  const Views& views = scene(640, 480);
+  const cv::Mat right = moved(views.right, 23);
+  RowCheck check;
+  EXPECT_NEAR(check.measure(viewOf(views.left), viewOf(right), 0, 64, 40).median_px, 23, 0.1);
+}
+
+TEST(RowCheck, NoticesATurnedCamera) {
+  const Views& views = scene(1280, 720);
+  const RowOffsets r = measure(views.left, moved(views.right, 0, 0.005), 0, 128);
+  EXPECT_LT(std::abs(r.median_px), 1);
+  EXPECT_NEAR(r.worst_px, 0.005 * 640, 0.6);
+}
+
+TEST(RowCheck, IgnoresExposureAndNegativeDisparities) {
+  const cv::Mat left = scene(640, 480).left;
+  cv::Mat right = moved(scene(640, 480).right, 1.5);
+  right = right * 0.8 + 25;
+  EXPECT_NEAR(measure(left, right, 0, 64).median_px, 1.5, 0.15);
+  // Exchanged, disparities are negative and the offset has the other sign.
+  EXPECT_NEAR(measure(right, left, -64, 64).median_px, -1.5, 0.15);
+}
+
+TEST(RowCheck, SaysNothingWithoutTextureOrOverlap) {
+  for (const cv::Size size :
+       {cv::Size(1, 1), cv::Size(5, 3), cv::Size(33, 17), cv::Size(300, 9), cv::Size(640, 480)}) {
+    const cv::Mat flat(size, CV_8UC1, cv::Scalar(100));
+    const RowOffsets r = measure(flat, flat, 0, 64);
+    EXPECT_TRUE(std::isnan(r.median_px) && std::isnan(r.worst_px)) << size;
+    EXPECT_EQ(r.points, 0);
+  }
+  cv::Mat a(480, 640, CV_8UC1), b(480, 640, CV_8UC1);
+  cv::RNG random(1);
+  random.fill(a, cv::RNG::UNIFORM, 0, 256);
+  random.fill(b, cv::RNG::UNIFORM, 0, 256);
+  EXPECT_TRUE(std::isnan(measure(a, b, 0, 64).median_px));  // different noise: no match
+}
+
+TEST(RowCheck, KeepsNothingFromTheFrameBefore) {
+  const auto& [left, right] = scene(640, 480);
+  RowCheck check;
+  const RowOffsets first = check.measure(viewOf(left), viewOf(right), 0, 64);
+  check.measure(viewOf(right), viewOf(left), -64, 64);
+  const RowOffsets again = check.measure(viewOf(left), viewOf(right), 0, 64);
+  EXPECT_EQ(first.median_px, again.median_px);
+  EXPECT_EQ(first.worst_px, again.worst_px);
+  EXPECT_EQ(first.points, again.points);
+}
+
+TEST(RowCheck, EngineWarnsUnlessToldNotTo) {
+  const auto& [left, right] = scene(640, 480);
+  Options options = Options::preset("fast");
+  options.num_disparities = 64;
+  options.mode = OutputMode::kSparse;
+  StereoEngine engine(options);
+  EXPECT_FALSE(engine.compute(left, right).rowsAreOff());
+  const cv::Mat off = moved(right, 2);
+  const StereoResult& result = engine.compute(left, off);
+  EXPECT_NEAR(result.row_offset_px, 2, 0.1);
+  EXPECT_TRUE(result.rowsAreOff());
+  const float offset_px = result.row_offset_px, error_px = result.row_error_px;
+  for (const char* isa : {"scalar", ""})
+    for (const int threads : {1, 3}) {
+      options.isa = isa;
+      options.threads = threads;
+      StereoEngine other(options);
+      const StereoResult& r = other.compute(left, off);
+      EXPECT_EQ(r.row_offset_px, offset_px);
+      EXPECT_EQ(r.row_error_px, error_px);
+    }
+  options.row_check = false;
+  StereoEngine silent(options);
+  const StereoResult& unchecked = silent.compute(left, off);
+  EXPECT_TRUE(std::isnan(unchecked.row_offset_px));
+  EXPECT_FALSE(unchecked.rowsAreOff());
+  EXPECT_EQ(cv::norm(unchecked.state, engine.compute(left, off).state, cv::NORM_INF), 0);
+}
+
+TEST(RowCheck, RealPairsAreAligned) {
+  namespace fs = std::filesystem;
+  const char* datasets = std::getenv("POMONA_DATASETS");
+  if (!datasets) GTEST_SKIP() << "set POMONA_DATASETS to a folder with middlebury/";
+  const fs::path folder = fs::path(datasets) / "middlebury";
+  if (!fs::exists(folder)) GTEST_SKIP() << folder << " is not there";
+  for (const char* scene : {"Motorcycle", "Aloe-full", "teddy", "Art", "Reindeer"}) {
+    const cv::Mat left = gray(readImage((folder / scene / "im0.png").string()));
+    const cv::Mat right = gray(readImage((folder / scene / "im1.png").string()));
+    for (const double shift_px : {0.0, 1.0}) {
+      const RowOffsets r = measure(left, moved(right, shift_px), 0, left.cols / 4);
+      EXPECT_NEAR(r.median_px, shift_px, 0.25) << scene;
+      EXPECT_GE(r.points, 25) << scene;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pomona
