@@ -9,7 +9,7 @@
 
 #include "baselines/method.h"
 #include "datasets/named_scenes.h"
-#include "pomona/disparity.h"
+#include "pomona/pixel_state.h"
 #include "pomona/evaluation.h"
 
 namespace pomona {
