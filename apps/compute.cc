@@ -126,6 +126,9 @@ void printErrors(const DisparityErrors& errors) {
 }
 
 void compute(const ComputeArguments& arguments) {
+  if (arguments.min_confidence != 0 && arguments.mode != "sparse")
+    throw std::invalid_argument("--min-confidence: --mode is '" + arguments.mode +
+                                "'; allowed: sparse (a dense map keeps all pixels)");
   const ComputePaths& paths = arguments.paths;
   if (!(paths.depth.empty() && paths.cloud.empty()) && paths.calibration.empty() && paths.rig.empty())
     throw CLI::RequiresError(paths.depth.empty() ? "--cloud" : "--depth", "--calib or --rig");

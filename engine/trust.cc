@@ -22,19 +22,19 @@ struct Fit {
 };
 
 // Printed by bench/confidence.
-constexpr Fit kLogOdds = {3.384, 0.1741, 0.02215, -0.0983, -0.0968, -2.283};
-constexpr Fit kLogSigma = {-1.101, -0.0960, 0.00293, 0.0129, 0.0299, 0.940};
+constexpr Fit kLogOdds = {2.6273, 0.16888, 0.018735, -0.085034, -0.043632, -1.4108};
+constexpr Fit kLogSigma = {-0.99697, -0.107, 0.0013988, 0.026337, 0.021868, 0.7061};
 
 constexpr Trust::Pair trustInFilled(PixelState state) {
   switch (state) {
     case PixelState::kFilledPlane:
-      return {0.89f, 0.43f};
+      return {0.86f, 0.47f};
     case PixelState::kFilledBackground:
-      return {0.58f, 6.38f};
+      return {0.47f, 6.97f};
     case PixelState::kFilledInterpolated:
-      return {0.48f, 16.40f};
+      return {0.43f, 6.61f};
     case PixelState::kFilledCoarse:
-      return {0.44f, 2.78f};
+      return {0.39f, 3.69f};
     default:
       return {0.0f, std::numeric_limits<float>::quiet_NaN()};
   }

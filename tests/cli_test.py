@@ -305,6 +305,8 @@ class BadOptions(CommandTest):
 
     def test_usage(self):
         self.refuse("--mode", "--mode", "thick")
+        self.refuse("allowed: sparse", "--min-confidence", "0.9")
+        self.refuse("validation.min_confidence is nan", "--mode", "sparse", "--min-confidence", "nan")
         self.refuse("--max-disparity", "--max-disparity", "many")
         self.refuse("--max-disparity = nan; allowed: a number", "--max-disparity", "nan")
         self.refuse("--max-disparity", "--max-disparity", "99999999999")

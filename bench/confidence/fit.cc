@@ -1,6 +1,6 @@
 // Fits confidence and sigma_px (engine/trust.cc) on rendered scenes: no real scene is learned.
 //
-// The scenes are made harder than they are rendered, in ways real ones are: surfaces lose up to 80 % of their
+// The scenes are made harder than they are rendered, in ways real ones are: surfaces lose up to 95 % of their
 // contrast, and the views get noise, blur, a difference of gain, and lines that are off by a fraction of a
 // pixel, as calibrations leave them. Truth is exact. Presets are pooled. The measured pixels are counted in
 // cells of equal features; a logistic regression gives the log odds of being right to within a pixel, a
@@ -27,7 +27,7 @@ namespace {
 constexpr int kDisparities = 64;
 constexpr double kWithinOneSigma = 0.6827;
 constexpr double kCalibrationError_px = 0.3;
-constexpr int kTerms = 6;  // as in engine/trust.cc: constant, margin, its square, curvature, residual, none
+constexpr int kTerms = 6;  // those of engine/trust.cc
 using Terms = std::array<double, kTerms>;
 
 /// Pixels alike.
@@ -52,7 +52,7 @@ struct Cells {
 SceneDescription fadedScene(const char* name, std::uint64_t seed, cv::RNG& random) {
   SceneDescription scene = namedScene(name, seed, 640, 400, 56);
   for (Surface& surface : scene.surfaces) {
-    const double contrast = std::pow(10.0, random.uniform(-0.7, 0.0));
+    const double contrast = std::pow(10.0, random.uniform(-1.3, 0.0));
     surface.paint.second_bgr =
         surface.paint.first_bgr + contrast * (surface.paint.second_bgr - surface.paint.first_bgr);
   }
@@ -170,8 +170,8 @@ Terms fitLogSigma(std::map<int, Cell>& cells) {
 }
 
 void print(const char* name, const Terms& fit) {
-  std::printf("%s = {%.3f, %.4f, %.5f, %.4f, %.4f, %.3f}\n", name, fit[0], fit[1], fit[2], fit[3], fit[4],
-              fit[5]);
+  std::printf("%s = {", name);
+  for (const double& term : fit) std::printf("%.5g%s", term, &term == &fit.back() ? "}\n" : ", ");
 }
 
 int fit() {
