@@ -11,6 +11,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "apps/compute_files.h"
 #include "apps/verbs.h"
@@ -127,8 +128,10 @@ void printErrors(const DisparityErrors& errors) {
 
 void compute(const ComputeArguments& arguments) {
   const ComputePaths& paths = arguments.paths;
-  if (!(paths.depth.empty() && paths.cloud.empty()) && paths.calibration.empty() && paths.rig.empty())
-    throw CLI::RequiresError(paths.depth.empty() ? "--cloud" : "--depth", "--calib or --rig");
+  for (const auto& [option, path] :
+       {std::pair{"--depth", &paths.depth}, {"--depth-sigma", &paths.depth_sigma}, {"--cloud", &paths.cloud}})
+    if (!path->empty() && paths.calibration.empty() && paths.rig.empty())
+      throw CLI::RequiresError(option, "--calib or --rig");
   checkOutputs(arguments.paths);
   const ComputeInputs inputs = readInputs(arguments.paths);
   const SearchRange range = searchRange(arguments, inputs);
@@ -176,7 +179,10 @@ void addFileOptions(CLI::App& verb, ComputePaths& paths) {
                   "Standard deviation of the disparities (.pfm, pixels, inf unknown)");
   verb.add_option("--depth", paths.depth,
                   "Depth: metres (.pfm, inf unknown), or millimetres (16-bit .png, 0 unknown)");
-  verb.add_option("--cloud", paths.cloud, "Coloured point cloud in metres (.ply)");
+  verb.add_option("--depth-sigma", paths.depth_sigma,
+                  "Standard deviation of the depth (.pfm, metres, inf unknown)");
+  verb.add_option("--cloud", paths.cloud,
+                  "Coloured point cloud in metres: .ply, or organised as the image is: .pcd");
   verb.add_option("--error", paths.error,
                   "Picture of the error (.png): green 0, red 4 px and more, white no disparity")
       ->needs(ground_truth);
