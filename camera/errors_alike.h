@@ -8,7 +8,7 @@ namespace pomona {
 inline constexpr double kAlike_px = 60;
 /// The standard deviation of the error that all pixels of a surface have in common: of the sub-pixel curve,
 /// of slants, of shading. It does not go down with more pixels.
-inline constexpr double kCommonSigma_px = 0.12;
+inline constexpr double kCommonSigma_px = 0.15;
 /// No pixel is better than this.
 inline constexpr double kSmallestSigma_px = 0.1;
 

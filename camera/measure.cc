@@ -15,9 +15,12 @@ namespace pomona {
 namespace {
 
 // Fruits are no spheres: what that makes of the near side and of the centre, as a share of the radius.
-constexpr double kNearShapeError = 0.01, kCenterShapeError = 0.05;
+constexpr double kNearShapeError = 0.01, kCenterShapeError = 0.06;
 
-constexpr int kSamplesToVote = 300, kSamplesToFit = 2000;
+// Of a sphere, to be believed.
+constexpr double kLeastScore = 0.1;
+
+constexpr int kSamplesToVote = 250, kSamplesToFit = 1200;
 
 void requireMap(const char* name, const cv::Mat& map, int type, cv::Size size) {
   if (!map.empty() && (map.type() != type || map.size() != size))
@@ -113,7 +116,7 @@ ObjectMeasurement measureObject(const StereoResult& result, const StereoCalibrat
   const Outline outline = outlineOf(region, result.disparity.size());
   const RegionMask mask = maskOf(region, result.disparity.size());
   if (mask.pixels == 0) return failed(MeasureFailure::kOutside);
-  const RegionSamples samples = samplesOf(result, calibration, mask, kSamplesToFit);
+  const RegionSamples samples = samplesOf(result, calibration, outline, mask, kSamplesToFit);
   if (samples.known_px < options.min_support_px) return failed(MeasureFailure::kUnmatched);
   if (samples.known_px - samples.infinite_px < options.min_support_px)
     return failed(MeasureFailure::kInfinite);
@@ -121,13 +124,13 @@ ObjectMeasurement measureObject(const StereoResult& result, const StereoCalibrat
   ObjectMeasurement m = failed(MeasureFailure::kNone);
   if (options.shape == ObjectShape::kSphere) {
     const RadiusPrior prior{options.radius_m, options.radius_sigma_m};
-    const RegionSamples few = samplesOf(result, calibration, mask, kSamplesToVote);
+    const RegionSamples few = samplesOf(result, calibration, outline, mask, kSamplesToVote);
     std::optional<FittedSphere> best;
     for (const FittedSphere& guess : vote(few, outline, prior, calibration))
       if (const auto sphere = refine(guess, samples, outline, prior, calibration))
         if (!best || sphere->score > best->score) best = sphere;
-    if (best) set(m, *best, calibration);
-  } else if (const auto surface = fitSurface(samples, outline)) {
+    if (best && best->score > kLeastScore) set(m, *best, calibration);
+  } else if (const auto surface = fitSurface(samples)) {
     set(m, *surface, calibration);
   }
   if (m.support_px < options.min_support_px) return failed(MeasureFailure::kScattered);

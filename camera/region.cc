@@ -109,7 +109,8 @@ RegionMask maskOf(const Region& region, cv::Size image) {
 }
 
 RegionSamples samplesOf(const StereoResult& result, const StereoCalibration& calibration,
-                        const RegionMask& mask, int most) {
+                        const Outline& outline, const RegionMask& mask, int most) {
+  constexpr double kDecline = 1.6;        // exp(-1.6) = 0.2
   constexpr double kUsualSigma_px = 0.3;  // where the result knows none
   constexpr double kTrustInFilled = 0.25;
   const int step =
@@ -132,8 +133,10 @@ RegionSamples samplesOf(const StereoResult& result, const StereoCalibration& cal
       const double sigma_px = result.sigma_px.empty() ? kUsualSigma_px : result.sigma_px.at<float>(y, x);
       const double confidence = result.confidence.empty() ? 1 : result.confidence.at<float>(y, x);
       const bool measured = result.state.empty() || isMeasured(result.stateAt(y, x));
-      out.samples.push_back({ray * (1 / cv::norm(ray)), double(x), double(y), parallax_px, sigma_px,
-                             confidence * (measured ? 1 : kTrustInFilled)});
+      const double trust = confidence * (measured ? 1 : kTrustInFilled);
+      const cv::Point2d offset = (cv::Point2d(x, y) - outline.center_px) * (1 / outline.radius_px);
+      out.samples.push_back({ray * (1 / cv::norm(ray)), double(x), double(y), parallax_px, sigma_px, trust,
+                             trust * std::exp(-kDecline * offset.dot(offset))});
     }
   return out;
 }

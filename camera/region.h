@@ -31,6 +31,9 @@ struct SurfaceSample {
   double parallax_px;  ///< d + doffs, > 0
   double sigma_px;
   double trust;  ///< 0 to 1
+  /// Trust, times a bell around the outline's middle that is down to a fifth at its radius: detectors put the
+  /// object in the middle.
+  double central_trust;
 };
 struct RegionSamples {
   std::vector<SurfaceSample> samples;
@@ -40,6 +43,6 @@ struct RegionSamples {
 };
 /// Every pixel inside, or a grid of them that holds `most` at most, about.
 RegionSamples samplesOf(const StereoResult& result, const StereoCalibration& calibration,
-                        const RegionMask& mask, int most);
+                        const Outline& outline, const RegionMask& mask, int most);
 
 }  // namespace pomona

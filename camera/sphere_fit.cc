@@ -23,13 +23,8 @@ struct Candidate {
 // How hypotheses fare with the samples.
 class SphereVotes {
  public:
-  SphereVotes(const RegionSamples& region, const Outline& outline, const RadiusPrior& prior,
-              const StereoCalibration& calibration)
-      : samples_(region.samples),
-        prior_(prior),
-        calibration_(calibration),
-        weights_(centralWeights(region, outline)),
-        votes_(largestParallax(region)) {}
+  SphereVotes(const RegionSamples& region, const RadiusPrior& prior, const StereoCalibration& calibration)
+      : samples_(region.samples), prior_(prior), calibration_(calibration), votes_(largestParallax(region)) {}
 
   /// Each sample votes for the parallax that the sphere's centre has if the sample lies on it.
   void cast(const Hypothesis& h) {
@@ -37,11 +32,11 @@ class SphereVotes {
     const double cos_alpha = std::cos(h.radius_px / calibration_.focal_px);
     const double cos_alpha2 = cos_alpha * cos_alpha;
     votes_.clear();
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      const SurfaceSample& s = samples_[i];
+    for (const SurfaceSample& s : samples_) {
       const double c = s.ray.dot(bearing);
       if (c <= cos_alpha) continue;
-      votes_.add(s.parallax_px * s.ray[2] * cos_alpha2 / (c + std::sqrt(c * c - cos_alpha2)), weights_[i]);
+      votes_.add(s.parallax_px * s.ray[2] * cos_alpha2 / (c + std::sqrt(c * c - cos_alpha2)),
+                 s.central_trust);
     }
   }
 
@@ -78,24 +73,25 @@ class SphereVotes {
   const std::vector<SurfaceSample>& samples_;
   const RadiusPrior& prior_;
   const StereoCalibration& calibration_;
-  std::vector<double> weights_;
   Votes votes_;
 };
 
-// The radius that the outline tells of: an object may fill it, or half of it, or be cut off by it.
-RadiusPrior priorOf(const Outline& outline, double distance_m, const RadiusPrior& prior,
-                    const StereoCalibration& calibration) {
-  if (prior.radius_m > 0) return prior;
-  constexpr double kRoughly = 0.3;
-  const double radius_m = outline.radius_px / calibration.focal_px * distance_m;
-  return {radius_m, kRoughly * radius_m};
+// The radius that the outline tells of, where nothing else does: an object may fill it, or half of it, or be
+// cut off by it. Standard deviation as a share of the radius.
+constexpr double kRoughly = 0.3;
+
+double centralTrust(const RegionSamples& region) {
+  double sum = 0;
+  for (const SurfaceSample& s : region.samples) sum += s.central_trust;
+  return sum;
 }
 
 // One pass of Gauss-Newton.
 struct NormalEquations {
   cv::Matx44d information = cv::Matx44d::zeros();
   cv::Vec4d gradient = cv::Vec4d::all(0);
-  double squares = 0, weights = 0, central_weights = 0, pixels = 0;
+  double squares = 0, trust = 0, pixels = 0;   // of the samples on the sphere
+  double central_trust = 0, seen_through = 0;  // of those, and of those behind it
 
   void add(const cv::Vec4d& jacobian, double residual, double weight) {
     information += jacobian * jacobian.t() * weight;
@@ -103,8 +99,7 @@ struct NormalEquations {
   }
 };
 
-NormalEquations normalEquations(const FittedSphere& sphere, const RegionSamples& region,
-                                const Outline& outline, double most_reach_px,
+NormalEquations normalEquations(const FittedSphere& sphere, const RegionSamples& region, double most_reach_px,
                                 const StereoCalibration& calibration) {
   constexpr double kSteepest = 0.45;  // cosine of the slant against the line of sight
   constexpr double kLeastReach_px = 0.6;
@@ -122,6 +117,7 @@ NormalEquations normalEquations(const FittedSphere& sphere, const RegionSamples&
     const double residual = s.parallax_px - parallax_px;
     const double sigma_px = std::max(s.sigma_px, kSmallestSigma_px);
     const double reach_px = std::clamp(3 * sigma_px, kLeastReach_px, most_reach_px);
+    if (residual <= -reach_px) equations.seen_through += s.central_trust;
     if (std::abs(residual) >= reach_px) continue;
     const double u = residual / reach_px, biweight = (1 - u * u) * (1 - u * u);
     const double weight = s.trust * biweight / (sigma_px * sigma_px);
@@ -130,9 +126,8 @@ NormalEquations normalEquations(const FittedSphere& sphere, const RegionSamples&
     const cv::Vec4d jacobian(scale * normal[0], scale * normal[1], scale * normal[2], scale);
     equations.add(jacobian, residual, weight * independent);
     equations.squares += weight * residual * residual;
-    equations.weights += s.trust * biweight;
-    const cv::Point2d offset = (cv::Point2d(s.x_px, s.y_px) - outline.center_px) * (1 / outline.radius_px);
-    equations.central_weights += s.trust * biweight * std::exp(-1.6 * offset.dot(offset));
+    equations.trust += s.trust * biweight;
+    equations.central_trust += s.central_trust * biweight;
     equations.pixels += region.pixels_each;
   }
   return equations;
@@ -144,7 +139,7 @@ std::vector<FittedSphere> vote(const RegionSamples& region, const Outline& outli
                                const StereoCalibration& calibration) {
   constexpr double kStep = 0.3, kRatio = 1.33;  // of the outline's radius; between radii
   constexpr double kApart_px = 2;
-  SphereVotes votes(region, outline, prior, calibration);
+  SphereVotes votes(region, prior, calibration);
   std::vector<Candidate> coarse;
   for (int dy = -2; dy <= 2; ++dy)
     for (int dx = -2; dx <= 2; ++dx)
@@ -156,12 +151,13 @@ std::vector<FittedSphere> vote(const RegionSamples& region, const Outline& outli
         coarse.push_back(votes.candidate(h));
         coarse.push_back(votes.candidate(h, coarse.back().parallax_px));
       }
-  std::stable_sort(coarse.begin(), coarse.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
+  std::stable_sort(coarse.begin(), coarse.end(),
+                   [](const auto& a, const auto& b) { return a.score > b.score; });
 
   std::vector<Candidate> best;
   for (const Candidate& c : coarse) {
     const auto same = [&](const Candidate& b) { return std::abs(b.parallax_px - c.parallax_px) < kApart_px; };
-    if (c.score > 0 && best.size() < 3 && std::none_of(best.begin(), best.end(), same)) best.push_back(c);
+    if (c.score > 0 && best.size() < 4 && std::none_of(best.begin(), best.end(), same)) best.push_back(c);
   }
   std::vector<FittedSphere> spheres;
   for (const Candidate& c : best) spheres.push_back(votes.sphereOf(c));
@@ -171,39 +167,37 @@ std::vector<FittedSphere> vote(const RegionSamples& region, const Outline& outli
 std::optional<FittedSphere> refine(const FittedSphere& guess, const RegionSamples& region,
                                    const Outline& outline, const RadiusPrior& prior,
                                    const StereoCalibration& calibration) {
-  constexpr int kRounds = 8;
+  constexpr int kRounds = 7;
+  constexpr double kFirstReach_px = 2, kLastReach_px = 1;
   constexpr double kSmallest = 0.4, kLargest = 1.4;  // of the outline's radius
   FittedSphere sphere = guess;
-  for (int round = 0; round <= kRounds; ++round) {
-    NormalEquations equations =
-        normalEquations(sphere, region, outline, std::max(2.0 - 0.2 * round, 1.0), calibration);
-    if (equations.pixels == 0) return {};
+  for (int round = 0;; ++round) {
+    const double reach_px = std::max(kFirstReach_px - 0.2 * round, kLastReach_px);
+    NormalEquations equations = normalEquations(sphere, region, reach_px, calibration);
     const double distance_m = cv::norm(sphere.center_m);
-    const RadiusPrior radius = priorOf(outline, distance_m, prior, calibration);
-    const double information = 1 / (radius.sigma_m * radius.sigma_m);
-    equations.add({0, 0, 0, 1}, radius.radius_m - sphere.radius_m, information);
-    // The sides of the centre's place are hardly known where little is seen: it is somewhere in the outline.
-    const double sideways_m = outline.radius_px / calibration.focal_px * distance_m;
-    for (int axis = 0; axis < 2; ++axis) equations.information(axis, axis) += 1 / (sideways_m * sideways_m);
+    const double outline_m = outline.radius_px / calibration.focal_px * distance_m;
+    const RadiusPrior radius = prior.radius_m > 0 ? prior : RadiusPrior{outline_m, kRoughly * outline_m};
+    equations.add({0, 0, 0, 1}, radius.radius_m - sphere.radius_m, 1 / (radius.sigma_m * radius.sigma_m));
+    // Little is seen of some: then all that is known of their sides is that they are in the outline.
+    for (int axis = 0; axis < 2; ++axis) equations.information(axis, axis) += 1 / (outline_m * outline_m);
     bool solved = false;
     const cv::Matx44d covariance = equations.information.inv(cv::DECOMP_CHOLESKY, &solved);
-    if (!solved) return {};
+    if (!solved || equations.pixels == 0) return {};
     if (round == kRounds) {
-      const double misfit = std::max(1.0, equations.squares / equations.weights);
-      sphere.covariance = covariance * misfit;
+      sphere.covariance = covariance * std::max(1.0, equations.squares / equations.trust);
       sphere.support_px = equations.pixels;
       const double off = (sphere.radius_m - radius.radius_m) / radius.sigma_m;
-      sphere.score = equations.central_weights / (1 + 0.5 * off * off);
-      break;
+      sphere.score =
+          (equations.central_trust - equations.seen_through) / centralTrust(region) / (1 + 0.5 * off * off);
+      return sphere;
     }
     cv::Vec4d step = covariance * equations.gradient;
     const double longest = std::sqrt(step.dot(step)), limit = 0.5 * sphere.radius_m;
     if (longest > limit) step *= limit / longest;
     for (int axis = 0; axis < 3; ++axis) sphere.center_m[axis] += step[axis];
-    sphere.radius_m = std::clamp(sphere.radius_m + step[3], kSmallest * sideways_m, kLargest * sideways_m);
-    if (!(sphere.radius_m > 0 && sphere.center_m[2] > sphere.radius_m)) return {};
+    sphere.radius_m = std::clamp(sphere.radius_m + step[3], kSmallest * outline_m, kLargest * outline_m);
+    if (!(sphere.center_m[2] > sphere.radius_m)) return {};
   }
-  return sphere;
 }
 
 }  // namespace pomona

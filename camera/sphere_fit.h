@@ -20,7 +20,9 @@ struct FittedSphere {
   double radius_m = 0;
   cv::Matx44d covariance;  ///< of the centre (x, y, z) and the radius, in m^2, without errors of shape
   double support_px = 0;   ///< pixels that lie on it
-  double score = 0;        ///< how much speaks for it, to compare with others
+  /// How much speaks for it: the share of the region's central trust that lies on it, less that which is seen
+  /// through it, less where its radius is not the expected one; at most 1.
+  double score = 0;
 };
 
 /// A first guess by voting. A sphere of angular radius alpha around the bearing b that touches the surface

@@ -8,11 +8,10 @@
 
 namespace pomona {
 
-std::optional<FittedSurface> fitSurface(const RegionSamples& region, const Outline& outline) {
+std::optional<FittedSurface> fitSurface(const RegionSamples& region) {
   constexpr double kReach_px = 2;
-  const std::vector<double> central = centralWeights(region, outline);
   Votes votes(largestParallax(region));
-  for (std::size_t i = 0; i < central.size(); ++i) votes.add(region.samples[i].parallax_px, central[i]);
+  for (const SurfaceSample& s : region.samples) votes.add(s.parallax_px, s.central_trust);
   const Votes::Peak peak = votes.peak();
   if (peak.weight <= 0) return {};
 

@@ -17,6 +17,6 @@ struct FittedSurface {
 
 /// Each pixel votes for its own parallax, with its trust and a weight that falls from the outline's middle;
 /// then the mean of those near the peak. None if there is no vote.
-std::optional<FittedSurface> fitSurface(const RegionSamples& region, const Outline& outline);
+std::optional<FittedSurface> fitSurface(const RegionSamples& region);
 
 }  // namespace pomona

@@ -7,10 +7,12 @@ namespace pomona {
 namespace {
 
 constexpr int kBinsPerPixel = 4;
+constexpr int kWindow_px = 1;
+constexpr int kWindow = kWindow_px * kBinsPerPixel;
 
 }  // namespace
 
-Votes::Votes(double largest) : bins_(static_cast<std::size_t>(largest * kBinsPerPixel) + 2 + kBinsPerPixel) {}
+Votes::Votes(double largest) : bins_(static_cast<std::size_t>(largest * kBinsPerPixel) + 2 + kWindow) {}
 
 void Votes::clear() {
   std::fill(bins_.begin(), bins_.end(), 0.0);
@@ -27,20 +29,23 @@ void Votes::add(double value, double weight) {
 
 Votes::Peak Votes::peak(double other_than) const {
   constexpr double kApart_px = 2;
+  const auto isOther = [&](std::size_t begin) {
+    const double middle_px = (static_cast<double>(begin) + 0.5 * (kWindow - 1)) / kBinsPerPixel;
+    return std::abs(middle_px - other_than) >= kApart_px;
+  };
   std::size_t best = 0;
-  double best_sum = 0;
-  for (std::size_t begin = 0; begin + kBinsPerPixel <= bins_.size(); ++begin) {
-    if (std::abs((static_cast<double>(begin) + 0.5 * kBinsPerPixel) / kBinsPerPixel - other_than) <
-        kApart_px + 0.5)
-      continue;
-    double sum = 0;
-    for (std::size_t i = 0; i < kBinsPerPixel; ++i) sum += bins_[begin + i];
-    if (sum <= best_sum) continue;
-    best_sum = sum;
-    best = begin;
+  double best_sum = 0, sum = 0;
+  for (std::size_t i = 0; i < kWindow - 1; ++i) sum += bins_[i];
+  for (std::size_t begin = 0; begin + kWindow <= bins_.size(); ++begin) {
+    sum += bins_[begin + kWindow - 1];
+    if (sum > best_sum && isOther(begin)) {
+      best_sum = sum;
+      best = begin;
+    }
+    sum -= bins_[begin];
   }
   double moment = 0;
-  for (std::size_t i = best; i < best + kBinsPerPixel; ++i) moment += bins_[i] * static_cast<double>(i);
+  for (std::size_t i = best; i < best + kWindow; ++i) moment += bins_[i] * static_cast<double>(i);
   return {best_sum > 0 ? moment / best_sum / kBinsPerPixel : 0, best_sum};
 }
 
@@ -48,17 +53,6 @@ double largestParallax(const RegionSamples& region) {
   double largest = 0;
   for (const SurfaceSample& s : region.samples) largest = std::max(largest, s.parallax_px);
   return largest;
-}
-
-std::vector<double> centralWeights(const RegionSamples& region, const Outline& outline) {
-  constexpr double kDecline = 1.6;  // exp(-1.6) = 0.2
-  std::vector<double> weights;
-  weights.reserve(region.samples.size());
-  for (const SurfaceSample& s : region.samples) {
-    const cv::Point2d offset = (cv::Point2d(s.x_px, s.y_px) - outline.center_px) * (1 / outline.radius_px);
-    weights.push_back(s.trust * std::exp(-kDecline * offset.dot(offset)));
-  }
-  return weights;
 }
 
 }  // namespace pomona

@@ -29,8 +29,4 @@ class Votes {
 
 double largestParallax(const RegionSamples& region);
 
-/// Trust, times a bell around the outline's middle that is down to a fifth at its radius: detectors put the
-/// object in the middle.
-std::vector<double> centralWeights(const RegionSamples& region, const Outline& outline);
-
 }  // namespace pomona
