@@ -50,7 +50,7 @@ Numbers numbersOf(const char* option, const std::string& text, std::size_t count
   std::istringstream parts(text);
   bool good = !text.empty() && text.back() != ',';
   for (std::string part; good && std::getline(parts, part, ',');)
-    good = parseNumber(part, numbers.emplace_back());
+    good = parseNumber(part, numbers.emplace_back()) && std::isfinite(numbers.back());
   if (!good || (count > 0 ? numbers.size() != count : numbers.size() % 2 != 0))
     throw std::invalid_argument(std::string(option) + " is '" + text + "'; allowed: " + form);
   return numbers;

@@ -169,7 +169,7 @@ std::optional<FittedSphere> refine(const FittedSphere& guess, const RegionSample
                                    const StereoCalibration& calibration) {
   constexpr int kRounds = 7;
   constexpr double kFirstReach_px = 2, kLastReach_px = 1;
-  constexpr double kSmallest = 0.4, kLargest = 1.4;  // of the outline's radius
+  constexpr double kSmallest = 0.4, kLargest = 1.4, kSigmas = 3;  // of the outline's radius; of the prior's
   FittedSphere sphere = guess;
   for (int round = 0;; ++round) {
     const double reach_px = std::max(kFirstReach_px - 0.2 * round, kLastReach_px);
@@ -195,7 +195,12 @@ std::optional<FittedSphere> refine(const FittedSphere& guess, const RegionSample
     const double longest = std::sqrt(step.dot(step)), limit = 0.5 * sphere.radius_m;
     if (longest > limit) step *= limit / longest;
     for (int axis = 0; axis < 3; ++axis) sphere.center_m[axis] += step[axis];
-    sphere.radius_m = std::clamp(sphere.radius_m + step[3], kSmallest * outline_m, kLargest * outline_m);
+    const double smallest_m =
+        prior.radius_m > 0 ? prior.radius_m - kSigmas * prior.sigma_m : kSmallest * outline_m;
+    const double largest_m =
+        prior.radius_m > 0 ? prior.radius_m + kSigmas * prior.sigma_m : kLargest * outline_m;
+    sphere.radius_m = std::clamp(sphere.radius_m + step[3], smallest_m, largest_m);
+    if (sphere.radius_m <= 0) return {};
     if (!(sphere.center_m[2] > sphere.radius_m)) return {};
   }
 }
