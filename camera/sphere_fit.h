@@ -25,15 +25,16 @@ struct FittedSphere {
   double score = 0;
 };
 
-/// A first guess by voting. A sphere of angular radius alpha around the bearing b that touches the surface
+/// First guesses by voting. A sphere of angular radius alpha around the bearing b that touches the surface
 /// point seen along the ray r at parallax p has the centre's parallax
 ///
 ///     q = p r_z cos^2(alpha) / (c + sqrt(c^2 - cos^2(alpha))),     c = r b >= cos(alpha)
 ///
 /// measured along b: the factor of p depends on the place in the image alone. So for each b and alpha every
 /// pixel votes for one q, with its trust and a weight that falls from the middle of the outline; those on a
-/// sphere like that vote for the same. b and alpha are searched around the outline's, coarsely and then more
-/// finely, for the largest number of votes within 1 px. None if there is no vote.
+/// sphere like that vote for the same. Of a coarse grid of b and alpha around the outline's, those with most
+/// votes within 1 px: up to four, at least 2 px apart, best first. Of the spheres only centre and radius are
+/// set.
 std::vector<FittedSphere> vote(const RegionSamples& region, const Outline& outline, const RadiusPrior& prior,
                                const StereoCalibration& calibration);
 
