@@ -193,7 +193,7 @@ void addTree(SceneBuilder& b, double x, double share) {
 }
 
 // Trees of one row, before the hedge at the meadow's end.
-void addOrchard(SceneBuilder& b) {
+void addTrees(SceneBuilder& b) {
   b.plane({0.5, 0.5, 0.16}, {1, 0.5, 0.2}, {0.5, 0, 0.16}, kHedge, kCoarse_px);
   b.plane({0.5, 0.62, 0.22}, {1, 0.62, 0.22}, {0.5, 1, 0.6}, kMeadow, kMiddle_px);
   for (const double x : {0.17, 0.49, 0.83}) addTree(b, x, b.between(0.45, 0.65));
@@ -204,7 +204,7 @@ struct NamedScene {
   void (*add)(SceneBuilder&);
 };
 constexpr NamedScene kScenes[] = {
-    {"boxes", addBoxes}, {"orchard", addOrchard}, {"planes", addPlanes}, {"spheres", addSpheres}};
+    {"boxes", addBoxes}, {"planes", addPlanes}, {"spheres", addSpheres}, {"trees", addTrees}};
 
 void requireRange(const char* name, int value, int smallest, int largest) {
   if (value < smallest || value > largest)

@@ -10,7 +10,7 @@
 
 namespace pomona {
 
-/// "boxes", "orchard", "planes", "spheres".
+/// "boxes", "planes", "spheres", "trees".
 std::vector<std::string> sceneNames();
 
 /// The scene called `name`, arranged by `seed`. `num_disparities` scales its depths: the nearest surface lies

@@ -226,7 +226,7 @@ TEST(NamedScenes, AreTheSameEverywhere) {
     const char* name;
     std::uint64_t hash;
   } golden[] = {{"boxes", 0xc26a1677743b1327u},
-                {"orchard", 0x3ee0c33578ea8bc2u},
+                {"trees", 0x3ee0c33578ea8bc2u},
                 {"planes", 0x416db12692efefb1u},
                 {"spheres", 0xe394bc5213c80250u}};
   for (const auto& scene : golden)
