@@ -20,4 +20,8 @@ std::vector<std::string> sceneNames();
 SceneDescription namedScene(std::string_view name, std::uint64_t seed, int width, int height,
                             int num_disparities = 0);
 
+/// The same before other cameras than those of 53 degrees and 120 mm: `cameras` is an empty scene.
+SceneDescription namedScene(std::string_view name, std::uint64_t seed, const SceneDescription& cameras,
+                            int num_disparities = 0);
+
 }  // namespace pomona

@@ -60,11 +60,7 @@ Solid::Solid(const Surface& s, std::uint64_t paint_seed)
     to_local_ = dualBasis(a, b, v_);
   } else {
     if (shape == Shape::kLeaf) normal_ = unit(normal_);
-    const double area2 = normal_.dot(normal_);
-    const Vec3d dual_u = v_.cross(normal_) * (1 / area2), dual_v = normal_.cross(u_) * (1 / area2);
-    const Vec3d dual_n = normal_ * (1 / area2);
-    to_local_ = {dual_u[0], dual_u[1], dual_u[2], dual_v[0], dual_v[1],
-                 dual_v[2], dual_n[0], dual_n[1], dual_n[2]};
+    to_local_ = dualBasis(u_, v_, normal_);
   }
 }
 
