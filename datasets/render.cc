@@ -48,9 +48,9 @@ struct Eye {
   Eye(const SceneDescription& scene, std::span<const Solid> solids, View view, int threads)
       : rays(raysOf(scene, view, threads)),
         grid(solids, {view == View::kRight ? scene.baseline_m : 0, 0, 0}, cv::Matx33d::eye(), rays.range(),
-             {scene.width / kCell_px + 1, scene.height / kCell_px + 1}) {}
+             {scene.width / kCell_px + 1, scene.height / kCell_px + 1}, RayGrid::Beyond::kNothing) {}
 
-  static constexpr int kCell_px = 12;
+  static constexpr int kCell_px = 5;
 };
 
 class Renderer {

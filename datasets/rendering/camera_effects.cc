@@ -2,29 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "core/parallel.h"
 #include "datasets/hash.h"
+#include "datasets/rendering/require_range.h"
 
 namespace pomona {
 namespace {
 
 using cv::Vec3d;
-
-void requireRange(const char* name, double value, double smallest, double largest) {
-  const auto text = [](double number) {
-    std::string digits = std::to_string(number);
-    digits.erase(digits.find_last_not_of('0') + 1);
-    if (digits.back() == '.') digits.pop_back();
-    return digits;
-  };
-  if (!(value >= smallest && value <= largest))
-    throw std::invalid_argument(std::string(name) + " is " + text(value) + "; allowed: " + text(smallest) +
-                                " to " + text(largest));
-}
 
 // exp(-x), x >= 0, by halving x until the series is short: libm's last bit differs between machines.
 double expOfMinus(double x) {

@@ -20,7 +20,8 @@ cv::Matx33d axesAlongLight() {
 }  // namespace
 
 Daylight::Daylight(std::span<const Solid> solids)
-    : sun_(solids, kSunPlace, axesAlongLight(), rangeOf(solids, kSunPlace, axesAlongLight()), {256, 256}) {}
+    : sun_(solids, kSunPlace, axesAlongLight(), busyRange(solids, kSunPlace, axesAlongLight()), {512, 512},
+           RayGrid::Beyond::kEdgeCells) {}
 
 double Daylight::at(const Solid& solid, const Vec3d& point, const Vec3d& direction) const {
   constexpr double kSky = 0.42, kFromAbove = 0.14, kSun = 0.72, kThroughLeaf = 0.55;

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "datasets/rendering/require_range.h"
+
 namespace pomona {
 namespace {
 
@@ -81,6 +83,9 @@ StereoRig namedRig(std::string_view name) {
 }
 
 StereoRig resized(const StereoRig& rig, int width, int height) {
+  constexpr int kSmallestSide = 16, kLargestSide = 8192;
+  requireRange("width", width, kSmallestSide, kLargestSide);
+  requireRange("height", height, kSmallestSide, kLargestSide);
   const StereoCalibration old = rectificationOf(rig).calibration;
   StereoCalibration c = old;
   const double scale = 1.0 * width / old.width;

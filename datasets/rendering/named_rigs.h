@@ -21,7 +21,7 @@ std::vector<std::string> rigNames();
 StereoRig namedRig(std::string_view name);
 
 /// The same with images `width` wide and `height` high: focal length and offsets grow with the width, and the
-/// height is cropped or extended about the centre.
+/// height is cropped or extended about the centre. Sides: 16..8192, else std::invalid_argument.
 StereoRig resized(const StereoRig& rig, int width, int height);
 
 /// An empty scene before the ideal cameras of `rig`.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pomona {
 namespace {
@@ -34,22 +35,22 @@ Span spanOf(const Bounds& bounds, const Vec3d& origin, const cv::Matx33d& axes) 
 }  // namespace
 
 RayGrid::RayGrid(std::span<const Solid> solids, const Vec3d& origin, const cv::Matx33d& axes,
-                 const cv::Rect2d& range, cv::Size cells)
+                 const cv::Rect2d& range, cv::Size cells, Beyond beyond)
     : origin_(origin), axes_(axes), range_(range), cells_(cells), lists_(cells.area()) {
-  for (const Solid& solid : solids) add(solid);
+  for (const Solid& solid : solids) add(solid, beyond);
   for (auto& list : lists_)
     std::stable_sort(list.begin(), list.end(),
                      [](const Candidate& a, const Candidate& b) { return a.nearest < b.nearest; });
 }
 
-void RayGrid::add(const Solid& solid) {
+void RayGrid::add(const Solid& solid, Beyond beyond) {
   const Span span = spanOf(solid.bounds(), origin_, axes_);
   cv::Rect covered(0, 0, cells_.width, cells_.height);
   const bool in_front = span.nearest > kNearest_m;
   if (in_front) {
     const bool outside = span.right < range_.x - kMargin || span.left > range_.br().x + kMargin ||
                          span.bottom < range_.y - kMargin || span.top > range_.br().y + kMargin;
-    if (outside) return;
+    if (outside && beyond == Beyond::kNothing) return;
     const cv::Point first(columnOf(span.left - kMargin), rowOf(span.top - kMargin));
     const cv::Point last(columnOf(span.right + kMargin), rowOf(span.bottom + kMargin));
     covered = cv::Rect(first, last + cv::Point(1, 1));
@@ -95,19 +96,23 @@ bool RayGrid::isBlocked(const Vec3d& direction, double depth) const {
   return false;
 }
 
-cv::Rect2d rangeOf(std::span<const Solid> solids, const Vec3d& origin, const cv::Matx33d& axes) {
-  Span all;
+cv::Rect2d busyRange(std::span<const Solid> solids, const Vec3d& origin, const cv::Matx33d& axes) {
+  std::vector<double> xs, ys;
   for (const Solid& solid : solids) {
-    if (solid.shape == Shape::kPlane) continue;
-    const Span span = spanOf(solid.bounds(), origin, axes);
-    if (!(span.nearest > kNearest_m)) continue;
-    all.left = std::min(all.left, span.left);
-    all.right = std::max(all.right, span.right);
-    all.top = std::min(all.top, span.top);
-    all.bottom = std::max(all.bottom, span.bottom);
+    const Vec3d p = axes * (solid.center - origin);
+    if (solid.shape == Shape::kPlane || !(p[2] > kNearest_m)) continue;
+    xs.push_back(p[0] / p[2]);
+    ys.push_back(p[1] / p[2]);
   }
-  if (!(all.left < all.right && all.top < all.bottom)) return {0, 0, 1, 1};
-  return {all.left, all.top, all.right - all.left, all.bottom - all.top};
+  if (xs.empty()) return {0, 0, 1, 1};
+  const auto inner = [](std::vector<double>& values) {
+    std::sort(values.begin(), values.end());
+    const double low = values[values.size() / 20], high = values[values.size() - 1 - values.size() / 20];
+    return std::pair(low, std::max(high - low, 1e-3));
+  };
+  const auto [x, width] = inner(xs);
+  const auto [y, height] = inner(ys);
+  return {x, y, width, height};
 }
 
 }  // namespace pomona

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 #include "datasets/hash.h"
 #include "datasets/rendering/angle.h"
 #include "datasets/rendering/nearest_surface.h"
+#include "datasets/rendering/require_range.h"
 
 namespace pomona {
 namespace {
@@ -86,7 +86,7 @@ class StorefrontBuilder {
     const double half_view_m = 0.5 * z * s.width / s.focal_px;
     const double half_width_m =
         0.92 * half_view_m / options_.walls / turn[0] * (turn[0] - 0.2 * std::abs(turn[1]));
-    const double half_height_m = std::min(0.42 * z * s.height / s.focal_px, 2.0);
+    const double half_height_m = std::min(0.42 * z * s.height / s.focal_px, 0.95 * kCameraHeight_m);
     const Vec3d right(turn[0], 0, turn[1]), out(turn[1], 0, -turn[0]);
     return {{share * half_view_m, 0, z}, right, {0, 1, 0}, out, half_width_m, half_height_m, yaw};
   }
@@ -96,6 +96,9 @@ class StorefrontBuilder {
   void addShop(const Wall& wall, int number, int first_name) {
     const Vec3d clay{between(60, 120), between(80, 130), between(110, 175)};
     addPanel(wall, 0, 0, 1, 1, 0, {clay * 0.75, clay * 1.15, 0.22, Pattern::kBrick});
+    const double ground = kCameraHeight_m / wall.half_height_m;
+    addPanel(wall, 0, (ground + 1) / 2, 1, (ground - 1) / 2, 0,
+             {clay * 0.4, clay * 0.7, 0.1, Pattern::kMottle});
     addSign(wall, number, kNames[(first_name + 2 * number) % kNameCount], {0, -0.62}, 0.86, 0.2);
     addSign(wall, number, kNames[(first_name + 2 * number + 1) % kNameCount],
             {between(-0.35, -0.15), between(0.62, 0.7)}, 0.5, 0.13);
@@ -103,11 +106,11 @@ class StorefrontBuilder {
     addPanel(wall, -0.3, 0.08, 0.55, 0.36, 0.015, glass());
     for (int i = 0; i < 5; ++i) {  // goods behind the glass, as posters on it
       const Vec3d dark = color(30, 110), bright = dark + color(50, 120);
-      addPanel(wall, -0.7 + 0.2 * i, between(0.0, 0.2), 0.07, between(0.1, 0.2), 0.02,
-               {dark, bright, 0.05, Pattern::kMottle});
+      const double height = between(0.1, 0.2), middle = between(0, 0.2);
+      addPanel(wall, -0.7 + 0.2 * i, middle, 0.07, height, 0.02, {dark, bright, 0.05, Pattern::kMottle});
     }
     addPanel(wall, door, 0.33, 0.2, 0.6, 0.02, {color(20, 60), color(70, 120), 0.05, Pattern::kMottle});
-    addSign(wall, number, "OPEN", {door, 0.05}, 0.14, 0.06);
+    addSign(wall, number, "OPEN", {door, 0.05}, 0.19, 0.04);
   }
 
   void addSign(const Wall& wall, int number, const char* text, const cv::Vec2d& place, double half_a,
@@ -127,20 +130,14 @@ class StorefrontBuilder {
   Storefront street_;
 };
 
-void requireRange(const char* name, double value, double smallest, double largest) {
-  if (!(value >= smallest && value <= largest))
-    throw std::invalid_argument(std::string("storefront: ") + name + " is " + std::to_string(value) +
-                                "; allowed: " + std::to_string(smallest) + " to " + std::to_string(largest));
-}
-
 }  // namespace
 
 Storefront storefront(const SceneDescription& cameras, const StorefrontOptions& options) {
-  requireRange("walls", options.walls, 1, 8);
-  requireRange("nearest_m", options.nearest_m, 0.5, 20);
-  requireRange("farthest_m", options.farthest_m, options.nearest_m, 20);
-  requireRange("least_yaw_deg", options.least_yaw_deg, -60, 60);
-  requireRange("greatest_yaw_deg", options.greatest_yaw_deg, options.least_yaw_deg, 60);
+  requireRange("storefront: walls", options.walls, 1, 8);
+  requireRange("storefront: nearest_m", options.nearest_m, 0.5, 20);
+  requireRange("storefront: farthest_m", options.farthest_m, options.nearest_m, 20);
+  requireRange("storefront: least_yaw_deg", options.least_yaw_deg, -60, 60);
+  requireRange("storefront: greatest_yaw_deg", options.greatest_yaw_deg, options.least_yaw_deg, 60);
   return StorefrontBuilder(cameras, options).build();
 }
 
