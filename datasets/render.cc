@@ -29,10 +29,6 @@ std::vector<Solid> solidsOf(const SceneDescription& scene) {
   return solids;
 }
 
-cv::Vec2d principalOf(const SceneDescription& scene) {
-  return scene.principal_px.value_or(cv::Vec2d((scene.width - 1) / 2.0, (scene.height - 1) / 2.0));
-}
-
 PictureRays raysOf(const SceneDescription& scene, View view, int threads) {
   const bool right = view == View::kRight;
   return {cv::Size(scene.width, scene.height), scene.focal_px,
@@ -179,6 +175,10 @@ StereoCalibration calibrationOf(const SceneDescription& scene) {
 }
 
 }  // namespace
+
+cv::Vec2d principalOf(const SceneDescription& scene) {
+  return scene.principal_px.value_or(cv::Vec2d((scene.width - 1) / 2.0, (scene.height - 1) / 2.0));
+}
 
 RenderedPair render(const SceneDescription& scene, const CameraEffects& effects, int threads) {
   validate(scene);

@@ -60,6 +60,12 @@ struct Surface {
   double taper = 0;                   ///< kBranch: -1..1
 };
 
+/// A camera in the place of an ideal one.
+struct PictureCamera {
+  CameraModel model;                          ///< its size is that of the scene, whatever it says
+  cv::Matx33d rotation = cv::Matx33d::eye();  ///< the ideal camera's frame from this one's
+};
+
 struct SceneDescription {
   int width = 0, height = 0;
   double focal_px = 0;
@@ -72,11 +78,14 @@ struct SceneDescription {
 
   std::optional<cv::Vec2d> principal_px = {};  ///< of the left view; without one, the image's centre
   double doffs_px = 0;                         ///< the right view's cx minus the left one's
-  /// The cameras that take the pictures, where these are not the ideal ones above: lenses that distort, an
-  /// axis that is off. Disparities and masks are those of the ideal pair even so. Sizes are ignored.
-  std::optional<CameraModel> left_camera = {}, right_camera = {};
+  /// The cameras that take the pictures, where these are not the ideal ones above: lenses that distort, axes
+  /// that are off. Disparities and masks are those of the ideal pair even so.
+  std::optional<PictureCamera> left_camera = {}, right_camera = {};
   bool sun = false;  ///< surfaces are lit by sun and sky, and throw shadows; else spheres alone are shaded
 };
+
+/// The principal point of the left view.
+cv::Vec2d principalOf(const SceneDescription& scene);
 
 struct RenderedView {
   cv::Mat image;      ///< CV_8U or CV_16U, 3 or 1 channels; the mean of 4x4 rays per pixel

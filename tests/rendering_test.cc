@@ -299,6 +299,35 @@ TEST(Render, LensesBendThePictureAndNotTheTruth) {
   EXPECT_GT(straight, 2 * bent);
 }
 
+// Cameras that are turned see elsewhere what the ideal ones see; the rig says where.
+TEST(Render, TurnedCamerasSeeThroughTheirRotation) {
+  StereoRig rig = resized(namedRig("seed-003"), 160, 90);
+  rig.rectification.reset();
+  const double angle = 0.02;  // the right camera looks to the right
+  rig.right_from_left_rotation = {std::cos(angle), 0, -std::sin(angle), 0, 1, 0,
+                                  std::sin(angle), 0, std::cos(angle)};
+  const Rectification rectification = rectificationOf(rig);
+  SceneDescription scene = sceneFor(rig);
+  takeThroughLenses(rig, scene);
+  const Vec3d white(255, 255, 255), spot(0.03, -0.05, 1.5);
+  scene.surfaces.push_back({Shape::kSphere, spot, {}, {}, 0.03, {white, white, 1}});
+  const RenderedPair pair = render(scene);
+  for (const bool right : {false, true}) {
+    const CameraModel& camera = right ? rig.right : rig.left;
+    const cv::Matx33d turn = right ? rectification.right_rotation : rectification.left_rotation;
+    const Vec3d p = turn.t() * (spot - Vec3d(right ? scene.baseline_m : 0, 0, 0));
+    const cv::Vec2d expected = camera.pixelOf({p[0] / p[2], p[1] / p[2]});
+    const cv::Mat lit = (right ? pair.right : pair.left).image.reshape(1) > 0;
+    double x = 0, y = 0, count = 0;
+    for (int row = 0; row < lit.rows; ++row)
+      for (int column = 0; column < lit.cols; ++column)
+        if (lit.at<std::uint8_t>(row, column) > 0) x += column / 3, y += row, ++count;
+    ASSERT_GT(count, 20);
+    EXPECT_NEAR(x / count, expected[0], 0.3) << right;
+    EXPECT_NEAR(y / count, expected[1], 0.3) << right;
+  }
+}
+
 TEST(Render, RightViewShiftsByWholeRows) {
   SceneDescription scene = smallOrchard().scene;
   const cv::Mat straight = render(scene).right.image;

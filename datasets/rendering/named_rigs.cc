@@ -53,16 +53,11 @@ constexpr NamedRig kRigs[] = {{"middlebury", middlebury},
                               {"seed-003", [] { return robot(0.120); }},
                               {"seed-003-b60", [] { return robot(0.060); }}};
 
-// The camera that takes a view's picture, to be changed.
-CameraModel& cameraOf(SceneDescription& scene, View view) {
-  auto& camera = view == View::kRight ? scene.right_camera : scene.left_camera;
-  if (!camera) {
-    const cv::Vec2d principal =
-        scene.principal_px.value_or(cv::Vec2d((scene.width - 1) / 2.0, (scene.height - 1) / 2.0));
-    const double cx = principal[0] + (view == View::kRight ? scene.doffs_px : 0);
-    camera = CameraModel{scene.width, scene.height, scene.focal_px, scene.focal_px, cx, principal[1]};
-  }
-  return *camera;
+// What becomes of a camera's figures when its image is `scale` times as wide, and as high as is wanted.
+void resize(double scale, int old_height, int height, double& focal_px, double& cx_px, double& cy_px) {
+  focal_px *= scale;
+  cx_px = (cx_px + 0.5) * scale - 0.5;
+  cy_px = (cy_px - (old_height - 1) / 2.0) * scale + (height - 1) / 2.0;
 }
 
 }  // namespace
@@ -86,16 +81,21 @@ StereoRig resized(const StereoRig& rig, int width, int height) {
   constexpr int kSmallestSide = 16, kLargestSide = 8192;
   requireRange("width", width, kSmallestSide, kLargestSide);
   requireRange("height", height, kSmallestSide, kLargestSide);
-  const StereoCalibration old = rectificationOf(rig).calibration;
-  StereoCalibration c = old;
-  const double scale = 1.0 * width / old.width;
+  StereoRig result = rig;
+  result.rectification = rectificationOf(rig);
+  StereoCalibration& c = result.rectification->calibration;
+  const double scale = 1.0 * width / c.width;
+  resize(scale, c.height, height, c.focal_px, c.cx_px, c.cy_px);
+  c.doffs_px *= scale;
+  for (CameraModel* camera : {&result.left, &result.right}) {
+    camera->fy_px *= scale;
+    resize(scale, c.height, height, camera->fx_px, camera->cx_px, camera->cy_px);
+    camera->width = width;
+    camera->height = height;
+  }
   c.width = width;
   c.height = height;
-  c.focal_px = old.focal_px * scale;
-  c.cx_px = (old.cx_px + 0.5) * scale - 0.5;
-  c.cy_px = (old.cy_px - (old.height - 1) / 2.0) * scale + (height - 1) / 2.0;
-  c.doffs_px = old.doffs_px * scale;
-  return parallelRig(c, rig.left.distortion, rig.right.distortion);
+  return result;
 }
 
 SceneDescription sceneFor(const StereoRig& rig) {
@@ -111,12 +111,18 @@ SceneDescription sceneFor(const StereoRig& rig) {
 }
 
 void takeThroughLenses(const StereoRig& rig, SceneDescription& scene) {
-  scene.left_camera = rig.left;
-  scene.right_camera = rig.right;
+  const Rectification rectification = rectificationOf(rig);
+  scene.left_camera = PictureCamera{rig.left, rectification.left_rotation};
+  scene.right_camera = PictureCamera{rig.right, rectification.right_rotation};
 }
 
 void shiftRightView(double rows_px, SceneDescription& scene) {
-  cameraOf(scene, View::kRight).cy_px -= rows_px;
+  if (!scene.right_camera) {
+    const cv::Vec2d principal = principalOf(scene);
+    scene.right_camera = PictureCamera{CameraModel{scene.width, scene.height, scene.focal_px, scene.focal_px,
+                                                   principal[0] + scene.doffs_px, principal[1]}};
+  }
+  scene.right_camera->model.cy_px -= rows_px;
 }
 
 }  // namespace pomona

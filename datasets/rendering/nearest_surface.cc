@@ -8,8 +8,7 @@
 namespace pomona {
 
 int disparitiesFor(const SceneDescription& scene) {
-  const cv::Vec2d principal =
-      scene.principal_px.value_or(cv::Vec2d((scene.width - 1) / 2.0, (scene.height - 1) / 2.0));
+  const cv::Vec2d principal = principalOf(scene);
   double nearest = kFarthest_m;
   for (const Surface& surface : scene.surfaces) {
     const Solid solid(surface, 0);

@@ -2,24 +2,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "core/parallel.h"
 
 namespace pomona {
+namespace {
+
+// NaN where the lens has none.
+cv::Vec2d directionOf(const PictureCamera& camera, double x, double y) {
+  const cv::Vec2d own = camera.model.directionOf({x, y});
+  const cv::Vec3d ideal = camera.rotation * cv::Vec3d(own[0], own[1], 1);
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  return ideal[2] > 0 ? cv::Vec2d(ideal[0] / ideal[2], ideal[1] / ideal[2]) : cv::Vec2d(kNan, kNan);
+}
+
+}  // namespace
 
 PictureRays::PictureRays(cv::Size size, double focal_px, const cv::Vec2d& principal_px,
-                         const std::optional<CameraModel>& lens, int threads)
+                         const std::optional<PictureCamera>& camera, int threads)
     : size_(size), focal_(focal_px), principal_(principal_px) {
-  if (!lens) return;
+  if (!camera) return;
   corners_.create(size.height + 1, size.width + 1, CV_64FC2);
   parallelStrips(threads, corners_.rows, 8, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < corners_.cols; ++x)
-        corners_.at<cv::Vec2d>(y, x) = lens->directionOf({x - 0.5, y - 0.5});
+        corners_.at<cv::Vec2d>(y, x) = directionOf(*camera, x - 0.5, y - 0.5);
   });
-  if (!cv::checkRange(corners_))
-    throw std::invalid_argument("scene: a camera's lens doesn't reach all of its pixels");
+  if (!cv::checkRange(corners_)) throw std::invalid_argument("scene: some pixels of a camera look nowhere");
 }
 
 cv::Vec3d PictureRays::taken(int x, int y, double dx, double dy) const {

@@ -4,17 +4,17 @@
 #include <opencv2/core.hpp>
 #include <optional>
 
-#include "pomona/rig.h"
+#include "datasets/render.h"
 
 namespace pomona {
 
-/// Of a camera without a lens, or of one with.
+/// Of an ideal camera, and of the one that takes the pictures.
 class PictureRays {
  public:
-  /// `lens`: who takes the picture, if not the pinhole camera of the other figures. Throws
-  /// std::invalid_argument if some pixel of it has no direction.
+  /// `camera`: which takes the pictures, if not the ideal one. Throws std::invalid_argument if some pixel of
+  /// it looks nowhere, or backwards.
   PictureRays(cv::Size size, double focal_px, const cv::Vec2d& principal_px,
-              const std::optional<CameraModel>& lens, int threads);
+              const std::optional<PictureCamera>& camera, int threads);
 
   /// Of the ideal camera: (x, y, 1).
   cv::Vec3d ideal(double x, double y) const {
@@ -30,7 +30,7 @@ class PictureRays {
   cv::Size size_;
   double focal_;
   cv::Vec2d principal_;
-  cv::Mat corners_;  // CV_64FC2: directions of the pixels' corners; empty without a lens
+  cv::Mat corners_;  // CV_64FC2: directions of the pixels' corners; empty without a camera
 };
 
 }  // namespace pomona
