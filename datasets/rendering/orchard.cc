@@ -81,11 +81,11 @@ class OrchardBuilder {
 
   void addBackground() {
     const Vec3d right(1, 0, 0), down(0, 1, 0), ahead(0, 0, 1);
-    const Paint sky = paint(kSky, 0.15 * back_m_, Pattern::kMottle);
+    const Paint sky = paint(kSky, 0.06 * back_m_, Pattern::kMottle);
     add({Shape::kPlane, ahead * back_m_, right, down, 0, sky});
     add({Shape::kPlane, down * kCameraHeight_m, right, ahead, 0, paint(kMeadow, 0.12, Pattern::kMottle)});
     const double hedge_m = std::min(15.0, 0.85 * back_m_);
-    const Paint leafage = paint(kHedge, 0.04 * hedge_m, Pattern::kMottle);
+    const Paint leafage = paint(kHedge, 0.02 * hedge_m, Pattern::kMottle);
     for (int i = 0; i < 16; ++i) {
       const Vec3d center = place({-1.2 + 0.16 * i, between(-0.1, 0.05), hedge_m * between(0.9, 1.1)});
       const double width_m = halfWidth(hedge_m) * between(0.14, 0.24);

@@ -62,6 +62,18 @@ Solid::Solid(const Surface& s, std::uint64_t paint_seed)
     if (shape == Shape::kLeaf) normal_ = unit(normal_);
     to_local_ = dualBasis(u_, v_, normal_);
   }
+  reach2_m2_ = reach2();
+}
+
+// Farther from the center there is nothing.
+double Solid::reach2() const {
+  if (shape == Shape::kLeaf) {
+    const double along = half_length_m, across = kWidest * half_width_m;
+    const double up = std::abs(bend_u_m_) + kWidest * kWidest * std::abs(bend_v_m_);
+    return 1.001 * (along * along + across * across + up * up);
+  }
+  const double radius = radius_m_ * (1 + std::abs(taper_));
+  return 1.001 * (half_width_m * half_width_m + radius * radius);
 }
 
 double Solid::depthAlong(const Vec3d& origin, const Vec3d& direction) const {
@@ -89,7 +101,10 @@ double Solid::depthToPlane(const Vec3d& origin, const Vec3d& direction) const {
 // In the surface's own coordinates (a, b, c) each curved shape is the zero of a quadratic form, so that a ray
 // o + t d meets it where A t^2 + 2 B t + C = 0.
 double Solid::depthToQuadric(const Vec3d& origin, const Vec3d& direction) const {
-  const Vec3d o = to_local_ * (origin - center), d = to_local_ * direction;
+  const Vec3d from_center = origin - center;
+  const double along = from_center.dot(direction);
+  if (along * along < (from_center.dot(from_center) - reach2_m2_) * direction.dot(direction)) return kNowhere;
+  const Vec3d o = to_local_ * from_center, d = to_local_ * direction;
   double a, b, c;
   if (shape == Shape::kSpheroid) {  // a^2 + b^2 + c^2 = 1
     a = d.dot(d);

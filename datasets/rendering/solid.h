@@ -46,10 +46,12 @@ class Solid {
   double depthToPlane(const cv::Vec3d& origin, const cv::Vec3d& direction) const;
   double depthToQuadric(const cv::Vec3d& origin, const cv::Vec3d& direction) const;
   bool isWithin(const cv::Vec3d& local) const;
+  double reach2() const;
 
   cv::Vec3d u_, v_, normal_;
   double radius_m_, bend_u_m_, bend_v_m_, taper_;
   cv::Matx33d to_local_;
+  double reach2_m2_;  ///< of the curved shapes: no place on them is farther from the center, squared
 };
 
 }  // namespace pomona
