@@ -39,16 +39,17 @@ void check(const CheckArguments& arguments) {
                              std::to_string(right.height()) + "; the left image is " +
                              std::to_string(left.width()) + "x" + std::to_string(left.height()));
   constexpr int kUsualShare = 4;  // of the width
+  constexpr int kReach_px = 40;   // there is time
   const int end = arguments.max_disparity > arguments.min_disparity
                       ? arguments.max_disparity
                       : arguments.min_disparity + std::max(16, left.width() / kUsualShare);
   RowCheck row_check;
-  const RowOffsets rows =
-      row_check.measure(left.view(), right.view(), arguments.min_disparity, end - arguments.min_disparity);
+  const RowOffsets rows = row_check.measure(left.view(), right.view(), arguments.min_disparity,
+                                            end - arguments.min_disparity, kReach_px);
   std::cout << "points    " << rows.points << " matched\n";
   if (std::isnan(rows.median_px)) {
-    std::cout
-        << "rows      unknown: too few points have a match within 8 px (4, 2 in small images) of their row\n";
+    std::cout << "rows      unknown: fewer than 12 points have a match within " << kReach_px
+              << " px of their row\n";
     return;
   }
   std::array<char, 128> text;

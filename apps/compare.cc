@@ -75,10 +75,14 @@ std::vector<SheetCell> cellsOf(const SceneFiles& files, const CompareArguments& 
   std::vector<MethodMap> maps;
   for (const NamedMethod& method : methods) {
     progress.show(files.name + ", " + method.name);
-    const MethodResult result =
-        method.method->run(scene.left, scene.right, methodOptions(arguments.methods, num_disparities));
-    maps.push_back(
-        {result.disparity, method.name, remarkOf(score(files, scene, method.name, num_disparities, result))});
+    try {
+      const MethodResult result =
+          runTimed(*method.method, scene, methodOptions(arguments.methods, num_disparities));
+      const Measurement measurement = score(files, scene, method.name, num_disparities, result);
+      maps.push_back({result.disparity, method.name, remarkOf(measurement)});
+    } catch (const std::exception& error) {
+      throw std::runtime_error(files.name + ", " + method.name + ": " + error.what());
+    }
     progress.stepsDone(1);
   }
   const bool has_truth = !scene.ground_truth.empty();

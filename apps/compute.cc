@@ -26,6 +26,8 @@ struct ComputeArguments {
   int min_disparity = 0;
   std::string preset = "balanced";
   std::string mode = "dense";
+  float min_confidence = 0;
+  std::string memory = "automatic";
   int threads = 0;
   std::string isa;
   bool timings = false;
@@ -46,6 +48,10 @@ struct SearchRange {
   std::cout << line.data() << '\n';
 }
 
+MemoryMode memoryMode(const std::string& name) {
+  return name == "low" ? MemoryMode::kLow : name == "speed" ? MemoryMode::kSpeed : MemoryMode::kAutomatic;
+}
+
 SearchRange searchRange(const ComputeArguments& arguments, const ComputeInputs& inputs) {
   const int width = inputs.left.cols;
   const int ndisp = inputs.calibration ? inputs.calibration->num_disparities : 0;
@@ -59,7 +65,11 @@ SearchRange searchRange(const ComputeArguments& arguments, const ComputeInputs& 
     count = std::int64_t{ndisp} - range.min;
   } else {
     range.source = "estimate";
-    count = estimateNumDisparities(inputs.left, inputs.right, range.min);
+    Options options;
+    options.min_disparity = range.min;
+    options.threads = arguments.threads;
+    options.isa = arguments.isa;
+    count = estimateNumDisparities(inputs.left, inputs.right, options, inputs.mask);
   }
   constexpr int kMostDisparities = 1024;
   const int most = std::min(kMostDisparities, width);
@@ -89,7 +99,8 @@ void printSummary(const ComputeArguments& arguments, const SearchRange& range, c
   const double percent = 100.0 / static_cast<double>(result.disparity.total());
   print("size      %d x %d", result.disparity.cols, result.disparity.rows);
   print("searched  %d to %d px (%s)", range.min, range.min + range.count - 1, range.source.c_str());
-  if (known > 0) print("found     %.2f to %.2f px", low, high);
+  const auto noMinusZero = [](float d) { return std::abs(d) < 0.005f ? 0.0f : d; };
+  if (known > 0) print("found     %.2f to %.2f px", noMinusZero(low), noMinusZero(high));
   print("coverage  %.2f %% (%s)", percent * known, arguments.mode.c_str());
   for (std::size_t state = 0; state < pixels_in_state.size(); ++state)
     if (pixels_in_state[state] > 0)
@@ -126,6 +137,8 @@ void compute(const ComputeArguments& arguments) {
   options.min_disparity = range.min;
   options.num_disparities = range.count;
   options.mode = arguments.mode == "sparse" ? OutputMode::kSparse : OutputMode::kDense;
+  options.validation.min_confidence = arguments.min_confidence;
+  options.memory = memoryMode(arguments.memory);
   options.threads = arguments.threads;
   options.isa = arguments.isa;
 
@@ -159,6 +172,8 @@ void addFileOptions(CLI::App& verb, ComputePaths& paths) {
   verb.add_option("--color", paths.color, "Picture of the disparities (.png): warm is near, black unknown");
   verb.add_option("--state", paths.state, "Each pixel's state: a picture (.png), or its number (.pgm)");
   verb.add_option("--confidence", paths.confidence, "Confidence: gray picture (.png), or 0 to 1 (.pfm)");
+  verb.add_option("--sigma", paths.sigma,
+                  "Standard deviation of the disparities (.pfm, pixels, inf unknown)");
   verb.add_option("--depth", paths.depth,
                   "Depth: metres (.pfm, inf unknown), or millimetres (16-bit .png, 0 unknown)");
   verb.add_option("--cloud", paths.cloud, "Coloured point cloud in metres (.ply)");
@@ -176,6 +191,11 @@ void addMatchingOptions(CLI::App& verb, ComputeArguments& arguments) {
   verb.add_option("--preset", arguments.preset, "fast, balanced (default), quality or paper");
   verb.add_option("--mode", arguments.mode, "dense (default) or sparse: measured pixels only")
       ->check(CLI::IsMember({"dense", "sparse"}));
+  verb.add_option("--min-confidence", arguments.min_confidence,
+                  "With --mode sparse: leave out what is less likely right than this, 0 (default) to 1");
+  verb.add_option("--memory", arguments.memory,
+                  "speed, low (a little slower) or automatic (default): the same map in all")
+      ->check(CLI::IsMember({"automatic", "speed", "low"}));
   verb.add_option("--threads", arguments.threads, "Worker threads (default 0: one per processor)");
   verb.add_option("--isa", arguments.isa, "Instruction set to use (see pomona info)");
   verb.add_flag("--timings", arguments.timings, "Print the time of every stage");

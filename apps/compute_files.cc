@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <initializer_list>
 #include <stdexcept>
+#include <tuple>
 
 #include "apps/muted_stream.h"
 #include "apps/views.h"
@@ -11,11 +12,11 @@
 #include "camera/rectify.h"
 #include "core/parallel.h"
 #include "datasets/colorize.h"
-#include "datasets/disparity_file.h"
 #include "datasets/image_file.h"
 #include "datasets/input_file.h"
 #include "datasets/pfm.h"
 #include "datasets/png16.h"
+#include "datasets/scene_parts.h"
 
 namespace pomona {
 namespace {
@@ -55,6 +56,10 @@ std::string encodeConfidence(const Frame& frame, const std::string& extension) {
   return encodeImage(confidenceToGray(frame.result.confidence));
 }
 
+std::string encodeSigma(const Frame& frame, const std::string&) {
+  return encodePfm(frame.result.sigma_px);
+}
+
 std::string encodeDepth(const Frame& frame, const std::string& extension) {
   const cv::Mat depth = depthFromDisparity(frame.result.disparity, *frame.inputs.calibration);
   return extension == ".pfm" ? encodePfm(depth) : encodeDepthPng(depth);
@@ -74,6 +79,7 @@ const std::vector<OutputKind>& outputKinds() {
       {"--color", &ComputePaths::color, {".png"}, encodeColor},
       {"--state", &ComputePaths::state, {".png", ".pgm"}, encodeState},
       {"--confidence", &ComputePaths::confidence, {".png", ".pfm"}, encodeConfidence},
+      {"--sigma", &ComputePaths::sigma, {".pfm"}, encodeSigma},
       {"--depth", &ComputePaths::depth, {".pfm", ".png"}, encodeDepth},
       {"--cloud", &ComputePaths::cloud, {".ply"}, encodeCloud},
       {"--error", &ComputePaths::error, {".png"}, encodeError},
@@ -95,27 +101,6 @@ void requireExtension(const OutputKind& kind, const std::string& path) {
   std::string allowed;
   for (const std::string& e : kind.extensions) allowed += (allowed.empty() ? "" : ", ") + e;
   throw std::runtime_error(std::string(kind.option) + " is '" + path + "'; allowed extensions: " + allowed);
-}
-
-cv::Mat readView(const std::string& path) {
-  cv::Mat image = readImage(path);
-  const bool usable =
-      (image.depth() == CV_8U || image.depth() == CV_16U) && (image.channels() == 1 || image.channels() == 3);
-  if (!usable)
-    throw std::runtime_error(path + ": has " + describeType(image) +
-                             "; allowed: 1 or 3 channels of 8 or 16 bits");
-  return image;
-}
-
-void requireSide(const std::string& path, const char* side, int found, int expected) {
-  if (found != 0 && found != expected)
-    throw std::runtime_error(path + ": " + side + " is " + std::to_string(found) + "; the left image's is " +
-                             std::to_string(expected));
-}
-
-void requireSize(const std::string& path, cv::Size found, const cv::Mat& left) {
-  requireSide(path, "width", found.width, left.cols);
-  requireSide(path, "height", found.height, left.rows);
 }
 
 void rectify(const ComputePaths& paths, ComputeInputs& inputs) {
@@ -157,28 +142,15 @@ void checkOutputs(const ComputePaths& paths) {
 ComputeInputs readInputs(const ComputePaths& paths) {
   const MutedErrorStream muted;
   ComputeInputs inputs;
-  inputs.left = readView(paths.left);
-  inputs.right = readView(paths.right);
-  requireSize(paths.right, inputs.right.size(), inputs.left);
-  if (inputs.right.type() != inputs.left.type())
-    throw std::runtime_error(paths.right + ": has " + describeType(inputs.right) + "; the left image has " +
-                             describeType(inputs.left));
-  if (!paths.mask.empty()) {
-    inputs.mask = readImage(paths.mask);
-    if (inputs.mask.type() != CV_8UC1)
-      throw std::runtime_error(paths.mask + ": has " + describeType(inputs.mask) +
-                               "; allowed: 1 channel of 8 bits");
-    requireSize(paths.mask, inputs.mask.size(), inputs.left);
-  }
+  std::tie(inputs.left, inputs.right) = readViews(paths.left, paths.right);
+  const cv::Size size = inputs.left.size();
+  if (!paths.mask.empty()) inputs.mask = readByteMap(paths.mask, size);
   if (!paths.calibration.empty()) {
     inputs.calibration = rectificationOf(readRig(paths.calibration)).calibration;
-    requireSize(paths.calibration, {inputs.calibration->width, inputs.calibration->height}, inputs.left);
+    requireCalibrationFits(paths.calibration, *inputs.calibration, size);
   }
   if (!paths.rig.empty()) rectify(paths, inputs);
-  if (!paths.ground_truth.empty()) {
-    inputs.ground_truth = readDisparity(paths.ground_truth);
-    requireSize(paths.ground_truth, inputs.ground_truth.size(), inputs.left);
-  }
+  if (!paths.ground_truth.empty()) inputs.ground_truth = readTruth(paths.ground_truth, inputs.left.size());
   return inputs;
 }
 

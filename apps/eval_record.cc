@@ -1,5 +1,6 @@
 #include "apps/eval_record.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -29,6 +30,11 @@ std::string csvLine(const std::vector<std::string>& cells) {
   return line;
 }
 
+const std::optional<RegionFigures>& regionOf(const Measurement& measurement, Region region) {
+  return region == Region::kAll ? measurement.all : measurement.nonoccluded;
+}
+
+// Times are noted for all pixels, even without truth.
 bool hasRegion(const Measurement& measurement, Region region) {
   return region == Region::kAll || measurement.nonoccluded;
 }
@@ -42,14 +48,27 @@ Json namedFigures(const std::vector<double>& values) {
 
 Json curveOf(const Measurement& measurement, Region region) {
   Json points = Json::array();
-  const auto& figures = region == Region::kAll ? measurement.all : measurement.nonoccluded;
-  if (figures)
+  if (const auto& figures = regionOf(measurement, region))
     for (const CoverageCurve::Point& point : figures->curve.points)
       points.push_back({point.coverage_percent, point.wrong_percent, point.oracle_percent});
   return points;
 }
 
+Json subpixelOf(const Measurement& measurement, Region region) {
+  Json bins = Json::array();
+  if (const auto& figures = regionOf(measurement, region))
+    for (const SubpixelErrors::Bin& bin : figures->subpixel.bins)
+      bins.push_back({bin.count, bin.biasPx(), bin.rmsPx()});  // JSON has null for the NaN of an empty bin
+  return bins;
+}
+
 }  // namespace
+
+int EvalRecord::scenesBehindMean(const std::string& method, Region over) const {
+  return static_cast<int>(std::count_if(measurements.begin(), measurements.end(), [&](const Measurement& m) {
+    return m.method == method && regionOf(m, over);
+  }));
+}
 
 std::vector<double> EvalRecord::meanOfMethod(const std::string& method, Region over) const {
   std::vector<std::vector<double>> rows;
@@ -97,13 +116,18 @@ std::string jsonOf(const EvalRecord& record) {
     for (const Region region : kRegions)
       if (hasRegion(m, region)) row[name(region)] = namedFigures(figuresOf(m, region));
     row["curve"] = curveOf(m, record.region);
+    row["subpixel"] = subpixelOf(m, record.region);
     root["scenes"].push_back(std::move(row));
   }
   root["means"] = Json::object();
   for (const std::string& method : record.methods)
-    for (const Region region : kRegions)
-      root["means"][method][name(region)] = namedFigures(record.meanOfMethod(method, region));
+    for (const Region region : kRegions) {
+      Json& mean = root["means"][method][name(region)];
+      mean["scenes"] = record.scenesBehindMean(method, region);
+      mean.update(namedFigures(record.meanOfMethod(method, region)));
+    }
   root["problems"] = record.problems;
+  root["remarks"] = record.remarks;
   return root.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -35,9 +35,9 @@ double curveArea(const R& r) {
 double curveExcess(const R& r) {
   return r.curve.points.empty() ? kNone : r.curve.excessAreaPercent();
 }
-template <auto region>
-double d1(const M& m, const R*) {
-  return m.kitti ? std::invoke(region, *m.kitti).d1Percent() : kNone;
+template <auto part>
+double d1(const R& r) {
+  return r.kitti ? std::invoke(part, *r.kitti).d1Percent() : kNone;
 }
 
 constexpr std::array<FigureColumn, 26> kColumns = {{
@@ -70,9 +70,11 @@ constexpr std::array<FigureColumn, 26> kColumns = {{
      of<[](const R& r) { return r.subpixel.all.biasPx(); }>},
     {"inlier-rms", "root mean square error of inliers, px", 4, false,
      of<[](const R& r) { return r.subpixel.all.rmsPx(); }>},
-    {"D1-bg", "KITTI outliers or holes on the background, percent", 2, false, d1<&KittiErrors::background>},
-    {"D1-fg", "KITTI outliers or holes on vehicles, percent", 2, false, d1<&KittiErrors::foreground>},
-    {"D1-all", "KITTI outliers or holes, percent", 2, false, d1<&KittiErrors::all>},
+    {"D1-bg", "KITTI outliers of the filled map on the background, percent", 2, false,
+     of<d1<&KittiErrors::background>>},
+    {"D1-fg", "KITTI outliers of the filled map on vehicles, percent", 2, false,
+     of<d1<&KittiErrors::foreground>>},
+    {"D1-all", "KITTI outliers of the filled map, percent", 2, false, of<d1<&KittiErrors::all>>},
     {"s/GD", "seconds per 10^9 pixels times disparities", 3, false,
      [](const M& m, const R*) {
        return secondsPerGigadisparity(m.milliseconds / 1000, m.size, m.num_disparities);

@@ -47,6 +47,10 @@ int main(int argc, char** argv) {
           "--help)",
           kBadUsage);
     if (!std::cout.flush()) return fail("standard output: cannot be written", kBadInput);
+  } catch (const CLI::ConversionError& e) {
+    return fail(std::string(e.what()) + "; allowed: a number (of 32 bits, where whole)", kBadInput);
+  } catch (const CLI::ValidationError& e) {
+    return fail(e.what(), kBadInput);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help and --version
     return fail(std::string(e.what()) + " (see pomona --help)", kBadUsage);

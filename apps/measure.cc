@@ -17,13 +17,21 @@ EvaluationRules rulesOf(const SceneFiles& files, const Scene& scene) {
   return rules;
 }
 
-RegionFigures figuresOver(const cv::Mat& mask, const Scene& scene, const EvaluationRules& rules,
+KittiErrors kittiErrorsOfFilled(const MethodResult& result, const Scene& scene, const cv::Mat& mask) {
+  cv::Mat filled = result.disparity.clone();
+  fillRowsFromBackground(filled);
+  return kittiErrors(filled, scene.ground_truth, scene.objects, mask);
+}
+
+RegionFigures figuresOver(const cv::Mat& mask, const SceneFiles& files, const Scene& scene,
                           const MethodResult& result) {
   RegionFigures figures;
-  figures.errors = compareWithTruth(result.disparity, scene.ground_truth, mask, rules);
+  figures.errors = compareWithTruth(result.disparity, scene.ground_truth, mask, rulesOf(files, scene));
   if (!result.confidence.empty())
     figures.curve = coverageCurve(result.disparity, result.confidence, scene.ground_truth, mask);
   figures.subpixel = subpixelErrors(result.disparity, scene.ground_truth, mask);
+  if (files.layout == SceneLayout::kKitti2012 || files.layout == SceneLayout::kKitti2015)
+    figures.kitti = kittiErrorsOfFilled(result, scene, mask);
   return figures;
 }
 
@@ -38,6 +46,12 @@ int disparitiesToSearch(const SceneFiles& files, const Scene& scene) {
   return ndisp > 0 ? std::min(ndisp, most) : estimateNumDisparities(scene.left, scene.right);
 }
 
+MethodResult runTimed(Method& method, const Scene& scene, const MethodOptions& options) {
+  MethodResult result = method.run(scene.left, scene.right, options);
+  if (result.milliseconds < kWarmUpLimit_ms) result = method.run(scene.left, scene.right, options);
+  return result;
+}
+
 Measurement score(const SceneFiles& files, const Scene& scene, std::string_view method, int num_disparities,
                   const MethodResult& result) {
   Measurement measurement;
@@ -47,12 +61,9 @@ Measurement score(const SceneFiles& files, const Scene& scene, std::string_view 
   measurement.num_disparities = num_disparities;
   measurement.milliseconds = result.milliseconds;
   if (scene.ground_truth.empty()) return measurement;
-  const EvaluationRules rules = rulesOf(files, scene);
-  measurement.all = figuresOver({}, scene, rules, result);
+  measurement.all = figuresOver({}, files, scene, result);
   if (!scene.nonoccluded.empty())
-    measurement.nonoccluded = figuresOver(scene.nonoccluded, scene, rules, result);
-  if (files.layout == SceneLayout::kKitti2012 || files.layout == SceneLayout::kKitti2015)
-    measurement.kitti = kittiErrors(result.disparity, scene.ground_truth, scene.objects);
+    measurement.nonoccluded = figuresOver(scene.nonoccluded, files, scene, result);
   return measurement;
 }
 

@@ -17,6 +17,7 @@ struct RegionFigures {
   DisparityErrors errors;
   CoverageCurve curve;  ///< wrong by more than 1 px; without points if the method has no confidence
   SubpixelErrors subpixel;
+  std::optional<KittiErrors> kitti;  ///< KITTI's scenes only; of the filled map, as the benchmark counts
 };
 
 struct Measurement {
@@ -26,7 +27,6 @@ struct Measurement {
   double milliseconds = 0;
   /// Without truth, neither is there; without a mask of the non-occluded pixels, only `all`.
   std::optional<RegionFigures> all, nonoccluded;
-  std::optional<KittiErrors> kitti;  ///< KITTI's scenes only
 };
 
 /// How many disparities, from 0 up, every method is to search, so that none has to guess: the data set's own
@@ -34,9 +34,15 @@ struct Measurement {
 /// without truth ndisp of the calibration; and without that an estimate. At most the width, and 1024.
 int disparitiesToSearch(const SceneFiles& files, const Scene& scene);
 
+/// Runs the method; if that took less than kWarmUpLimit_ms, once more, and the second run's time counts: the
+/// first one makes the threads and buffers that a stream of pairs would find made.
+MethodResult runTimed(Method& method, const Scene& scene, const MethodOptions& options);
+inline constexpr double kWarmUpLimit_ms = 2000;
+
 /// Scores `result` by the rules of the scene's benchmark: for Middlebury, known disparities are clipped to
 /// [0, ndisp] where the calibration states ndisp, and compared as whole pixels if it says isint; for ETH3D,
-/// disparities larger than the width are holes. Thresholds are in pixels of the given images.
+/// disparities larger than the width are holes; for KITTI, D1 is that of the map after
+/// fillRowsFromBackground(). Thresholds are in pixels of the given images.
 Measurement score(const SceneFiles& files, const Scene& scene, std::string_view method, int num_disparities,
                   const MethodResult& result);
 

@@ -35,6 +35,12 @@ void addMethodOptions(CLI::App& verb, MethodArguments& arguments, std::vector<st
   verb.add_option("--mode", arguments.mode,
                   "dense (default); sparse: measured pixels only; raw: winners, neither checked nor filled")
       ->check(CLI::IsMember({"dense", "sparse", "raw"}));
+  PostProcessing& post = arguments.post_processing;
+  const std::string own = " (default: each method's own)";
+  verb.add_option("--left-right", post.left_right_px,
+                  "Largest difference of left and right disparity, px; negative: any" + own);
+  verb.add_option("--speckle", post.speckle_size_px, "Smaller regions are removed, pixels; 0: none" + own);
+  verb.add_option("--median", post.median_size, "Side of the median filter: 0 (none), 3 or 5" + own);
   verb.add_option("--threads", arguments.threads, "Worker threads (default 0: one per processor)");
 }
 
@@ -63,6 +69,7 @@ MethodOptions methodOptions(const MethodArguments& arguments, int num_disparitie
   options.num_disparities = num_disparities;
   options.mode = arguments.mode == "sparse" ? OutputMode::kSparse : OutputMode::kDense;
   options.raw = arguments.mode == "raw";
+  options.post_processing = arguments.post_processing;
   options.threads = arguments.threads;
   return options;
 }

@@ -13,14 +13,15 @@ class App;
 
 namespace pomona {
 
-/// What --methods, --mode and --threads say.
+/// What --methods, --mode, --left-right, --speckle, --median and --threads say.
 struct MethodArguments {
   std::vector<std::string> names;
   std::string mode = "dense";
+  PostProcessing post_processing;
   int threads = 0;
 };
 
-/// Adds the three options; `defaults` is what runs without --methods.
+/// Adds these options; `defaults` is what runs without --methods.
 void addMethodOptions(CLI::App& verb, MethodArguments& arguments, std::vector<std::string> defaults);
 
 struct NamedMethod {

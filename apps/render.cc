@@ -158,37 +158,22 @@ void requireKnownOptions(const CLI::App& verb, const std::string& scene) {
       throw std::invalid_argument(std::string(option) + " is no option of the scene 'chessboard'");
 }
 
-// A number whose faults are named like all others.
-void addNumber(CLI::App& verb, const std::string& option, double& value, const std::string& description) {
-  verb.add_option_function<std::string>(
-      option,
-      [option, &value](const std::string& text) {
-        if (!parseNumber(text, value))
-          throw std::invalid_argument(option + " is '" + text + "'; allowed: a number");
-      },
-      description);
-}
-
-void addRangeOption(CLI::App& verb, const std::string& option, const std::string& description,
-                    const std::function<void(const std::string&)>& set) {
-  verb.add_option_function<std::string>(option, set, description);
-}
-
 void addSceneOptions(CLI::App& verb, RenderArguments& a) {
-  addRangeOption(
-      verb, "--distance",
-      "orchard: depths of the fruits, m (default 0.6..0.75); storefront: of the walls (default 2..5)",
-      [&a](const std::string& text) {
-        parseRange("--distance", text, a.orchard.nearest_m, a.orchard.farthest_m);
-        a.storefront.nearest_m = a.orchard.nearest_m;
-        a.storefront.farthest_m = a.orchard.farthest_m;
-      });
+  const auto setDistance = [&a](const std::string& text) {
+    parseRange("--distance", text, a.orchard.nearest_m, a.orchard.farthest_m);
+    a.storefront.nearest_m = a.orchard.nearest_m;
+    a.storefront.farthest_m = a.orchard.farthest_m;
+  };
+  const auto setYaw = [&a](const std::string& text) {
+    parseRange("--yaw", text, a.storefront.least_yaw_deg, a.storefront.greatest_yaw_deg);
+  };
+  verb.add_option_function<std::string>(
+      "--distance", setDistance,
+      "orchard: depths of the fruits, m (default 0.6..0.75); storefront: of the walls (default 2..5)");
   verb.add_option("--fruits", a.orchard.fruits, "orchard: number of fruits (default: 6 to 14)");
   verb.add_option("--walls", a.storefront.walls, "storefront: number of walls (default 3)");
-  addRangeOption(verb, "--yaw", "storefront: turn of the walls, degrees (default -45..45)",
-                 [&a](const std::string& text) {
-                   parseRange("--yaw", text, a.storefront.least_yaw_deg, a.storefront.greatest_yaw_deg);
-                 });
+  verb.add_option_function<std::string>("--yaw", setYaw,
+                                        "storefront: turn of the walls, degrees (default -45..45)");
   verb.add_option("--views", a.views, "chessboard: number of pairs (default 20)")->check(CLI::Range(1, 99));
   verb.add_option("--square", a.square_mm, "chessboard: side of a square, mm (default 20)");
   verb.add_option("--noise", a.noise, "chessboard: standard deviation, 8-bit units (default 2)")
@@ -202,13 +187,13 @@ void addCameraOptions(CLI::App& verb, RenderArguments& a) {
                   rigs + "or a file (see pomona rig); default for orchard and storefront: seed-003");
   verb.add_option("--size", a.size, "WIDTHxHEIGHT; default: the rig's, without one 640x480");
   verb.add_option("--disparities", a.num_disparities, "Largest disparity, about (default: width / 10)");
-  addNumber(verb, "--blur", a.effects.blur_px, "Standard deviation of the blur, pixels");
-  addNumber(verb, "--vignetting", a.effects.vignetting, "Share of the light lost in the corners, 0 to 1");
-  addNumber(verb, "--exposure", a.effects.exposure, "Factor on the light of both views");
-  addNumber(verb, "--right-gain", a.effects.right_gain, "Factor on the values of the right view");
-  addNumber(verb, "--shot-noise", a.effects.shot_noise, "Standard deviation at white, 8-bit units");
-  addNumber(verb, "--read-noise", a.effects.read_noise, "Standard deviation anywhere, 8-bit units");
-  addNumber(verb, "--right-shift", a.right_shift_px, "Rows by which the right picture lies too high");
+  verb.add_option("--blur", a.effects.blur_px, "Standard deviation of the blur, pixels");
+  verb.add_option("--vignetting", a.effects.vignetting, "Share of the light lost in the corners, 0 to 1");
+  verb.add_option("--exposure", a.effects.exposure, "Factor on the light of both views");
+  verb.add_option("--right-gain", a.effects.right_gain, "Factor on the values of the right view");
+  verb.add_option("--shot-noise", a.effects.shot_noise, "Standard deviation at white, 8-bit units");
+  verb.add_option("--read-noise", a.effects.read_noise, "Standard deviation anywhere, 8-bit units");
+  verb.add_option("--right-shift", a.right_shift_px, "Rows by which the right picture lies too high");
   verb.add_flag("--lens", a.lens, "Take the pictures through the rig's lenses; also writes rig.yml");
   verb.add_option("--bits", a.bits, "Of the pictures: 8 (default) or 16");
 }

@@ -1,4 +1,4 @@
-// The two views of a pair as the command takes them.
+// Views for people to look at.
 #pragma once
 
 #include <opencv2/core.hpp>

@@ -3,12 +3,24 @@
 
 #include <memory>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <span>
 #include <string_view>
 
 #include "pomona/options.h"
 
 namespace pomona {
+
+/// Checks in place of the method's own, as in ValidationOptions; what is empty stays as the method has it.
+/// opencv-wls has none of them: its filter does without.
+struct PostProcessing {
+  std::optional<float> left_right_px;  ///< negative: off. OpenCV's take whole pixels from 1 up
+  std::optional<int> speckle_size_px;  ///< 0: off
+  std::optional<int> median_size;      ///< 0: off; 3 or 5. OpenCV's have none
+
+  bool operator==(const PostProcessing&) const = default;
+  ValidationOptions over(ValidationOptions usual) const;
+};
 
 struct MethodOptions {
   int min_disparity = 0;     ///< smallest disparity searched, pixels; may be negative
@@ -17,7 +29,10 @@ struct MethodOptions {
   /// The winner of every pixel as it is, a whole disparity: nothing checked, removed, smoothed or filled.
   /// Overrides `mode`. (OpenCV's matchers always refine below the pixel.)
   bool raw = false;
+  PostProcessing post_processing = {};  ///< OutputMode says whether holes are filled
   int threads = 0;  ///< worker threads; 0: one per available processor. OpenCV's methods choose their own.
+
+  bool operator==(const MethodOptions&) const = default;
 };
 
 /// All maps have the size of the left image and are the caller's.

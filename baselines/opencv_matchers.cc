@@ -14,7 +14,8 @@ class BlockMatcher : public Method {
   MethodResult run(const cv::Mat& left, const cv::Mat& right, const MethodOptions& options) override {
     const Stopwatch watch;
     constexpr int kRadius = 4;
-    const OpenCvViews views(left, right, options, kRadius);
+    const int margin = left.rows > 1 ? kRadius : kRadius + 1;  // OpenCV wants views larger than the window
+    const OpenCvViews views(left, right, options, margin);
     const auto matcher = cv::StereoBM::create(roundedDisparities(options), 2 * kRadius + 1);
     matcher->setMinDisparity(options.min_disparity);
     matcher->setUniquenessRatio(options.raw ? 0 : 10);

@@ -1,6 +1,7 @@
 #include "baselines/opencv_views.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
@@ -46,6 +47,7 @@ OpenCvViews::OpenCvViews(const cv::Mat& left_image, const cv::Mat& right_image, 
   Options checked;
   checked.min_disparity = options.min_disparity;
   checked.num_disparities = options.num_disparities;
+  checked.validation = options.post_processing.over(checked.validation);
   checked.validate();
   InputPair pair;
   pair.set(left_image, right_image, 1);
@@ -63,8 +65,13 @@ OpenCvViews::OpenCvViews(const cv::Mat& left_image, const cv::Mat& right_image, 
 }
 
 void setPostProcessing(cv::StereoMatcher& matcher, const MethodOptions& options) {
-  matcher.setDisp12MaxDiff(options.raw ? -1 : 1);
-  matcher.setSpeckleWindowSize(options.raw ? 0 : 100);
+  const PostProcessing& post = options.post_processing;
+  const float left_right_px = options.raw ? -1 : post.left_right_px.value_or(1);
+  // StereoSGBM takes what is not positive for 1, so "off" is a difference that cannot be.
+  constexpr int kAnyDifference = 2048;
+  matcher.setDisp12MaxDiff(left_right_px < 0 ? kAnyDifference
+                                             : std::max(1, static_cast<int>(std::lround(left_right_px))));
+  matcher.setSpeckleWindowSize(options.raw ? 0 : post.speckle_size_px.value_or(100));
   matcher.setSpeckleRange(2);
 }
 

@@ -23,8 +23,8 @@ struct OpenCvViews {
 /// OpenCV wants multiples of 16.
 int roundedDisparities(const MethodOptions& options);
 
-/// Left-right check (1 px) and speckle removal (100 pixels, steps up to 2 px), unless the options ask for raw
-/// winners.
+/// Left-right check (1 px) and speckle removal (100 pixels, steps up to 2 px), unless the options ask for
+/// others, or for raw winners.
 void setPostProcessing(cv::StereoMatcher& matcher, const MethodOptions& options);
 
 /// StereoSGBM in the given mode: blockSize 3, P1 8*9, P2 32*9, preFilterCap 63, uniquenessRatio 10, and the

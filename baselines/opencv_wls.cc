@@ -33,7 +33,8 @@ class WlsMatcher : public Method {
 
     MethodResult result = resultFromFixedPoint(options.raw ? fixed : filtered, views.inside, options);
     filter->getConfidenceMap()(views.inside).convertTo(result.confidence, CV_32F, 1.0 / 255);
-    result.confidence.setTo(0, result.disparity != result.disparity);
+    // Not by !=, for which OpenCV's vector code takes a NaN to be equal to itself.
+    result.confidence.setTo(0, ~(result.disparity == result.disparity));
     if (!options.raw) separateMeasured(result, options.mode);
     result.milliseconds = watch.milliseconds();
     return result;

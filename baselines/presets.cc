@@ -13,11 +13,6 @@ std::span<const MethodInfo> presetMethods();
 
 namespace {
 
-bool operator==(const MethodOptions& a, const MethodOptions& b) {
-  return a.min_disparity == b.min_disparity && a.num_disparities == b.num_disparities && a.mode == b.mode &&
-         a.raw == b.raw && a.threads == b.threads;
-}
-
 class Preset : public Method {
  public:
   explicit Preset(std::string_view name) : name_(name) {}
@@ -40,6 +35,10 @@ class Preset : public Method {
     o.num_disparities = options.num_disparities;
     o.mode = options.mode;
     o.threads = options.threads;
+    const PostProcessing& post = options.post_processing;
+    o.validation = post.over(o.validation);
+    o.completion.seed_left_right_px = post.left_right_px.value_or(o.completion.seed_left_right_px);
+    o.completion.seed_speckle_size_px = post.speckle_size_px.value_or(o.completion.seed_speckle_size_px);
     if (options.raw) {
       o.mode = OutputMode::kSparse;
       o.winner = {.subpixel = SubpixelMethod::kNone, .uniqueness_percent = 0};

@@ -13,6 +13,13 @@ MethodList aswMethods, nccMethods, openCvMethods, openCvWlsMethods, presetMethod
 static constexpr MethodList* kLists[] = {aswMethods,       nccMethods,    openCvMethods,
                                          openCvWlsMethods, presetMethods, ssdMethods};
 
+ValidationOptions PostProcessing::over(ValidationOptions usual) const {
+  usual.left_right_px = left_right_px.value_or(usual.left_right_px);
+  usual.speckle_size_px = speckle_size_px.value_or(usual.speckle_size_px);
+  usual.median_size = median_size.value_or(usual.median_size);
+  return usual;
+}
+
 std::span<const MethodInfo> methods() {
   static const std::vector<MethodInfo> sorted = [] {
     std::vector<MethodInfo> all;

@@ -11,9 +11,7 @@ namespace pomona {
 namespace {
 
 constexpr int kColumns = 16, kRows = 10;  // one point from each cell of this grid
-constexpr int kReach = 2;                 // rows up and down, in the reduced views
 constexpr int kBlock = 8;                 // side of the blocks compared there
-constexpr int kMargin = kBlock / 2 + kReach + 1;
 constexpr int kFewestPoints = 12;
 
 using Bytes = ImageView<const std::uint8_t>;
@@ -48,21 +46,36 @@ int texture(Bytes view, int x, int y) {
   return std::min(along_x, along_y);
 }
 
+// The point with the most texture in a cell of the grid, at least `margin` from the border; false if none has
+// any.
+bool findTexture(Bytes view, int cell, int margin, int& x, int& y) {
+  constexpr int kStep = 4, kLeastTexture = 80;
+  const int column = cell % kColumns, row = cell / kColumns, w = view.width, h = view.height;
+  int best = kLeastTexture;
+  const int x_begin = std::max(margin, column * w / kColumns),
+            x_end = std::min(w - margin, (column + 1) * w / kColumns);
+  const int y_begin = std::max(margin, row * h / kRows), y_end = std::min(h - margin, (row + 1) * h / kRows);
+  for (int py = y_begin; py < y_end; py += kStep)
+    for (int px = x_begin; px < x_end; px += kStep)
+      if (const int t = texture(view, px, py); t > best) best = t, x = px, y = py;
+  return best > kLeastTexture;
+}
+
 struct Range {
   int begin, end;
 };
 
 // The best place in the right view, unless another disparity is about as good.
-bool search(Bytes left, Bytes right, int x, int y, Range disparities, int& best_x, int& best_y) {
-  const Range columns{std::max(kMargin, x - disparities.end + 1),
-                      std::min(right.width - kMargin, x - disparities.begin + 1)};
+bool search(Bytes left, Bytes right, int x, int y, Range disparities, int reach, int& best_x, int& best_y) {
+  const Range columns{std::max(kBlock / 2, x - disparities.end + 1),
+                      std::min(right.width - kBlock / 2, x - disparities.begin + 1)};
   if (columns.end - columns.begin < 1) return false;
   std::array<int, 1024> cost_at;  // of the best row, by column: disparities of a reduced view are few
   const int count = std::min<int>(columns.end - columns.begin, cost_at.size());
   int best = std::numeric_limits<int>::max();
   for (int i = 0; i < count; ++i) {
     int lowest = std::numeric_limits<int>::max();
-    for (int dy = -kReach; dy <= kReach; ++dy) {
+    for (int dy = -reach; dy <= reach; ++dy) {
       const int cost = absoluteDifference(left, x, y, right, columns.begin + i, y + dy);
       lowest = std::min(lowest, cost);
       if (cost < best) best = cost, best_x = columns.begin + i, best_y = y + dy;
@@ -210,9 +223,9 @@ void RowCheck::reduce(ImageView<const std::uint8_t> in, int scale, View& view) {
   }
 }
 
-RowOffsets RowCheck::measure(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,
-                             int min_disparity, int num_disparities) {
+RowOffsets RowCheck::measure(Bytes left, Bytes right, int min_disparity, int num_disparities, int reach_px) {
   const int scale = left.width >= 800 ? 4 : left.width >= 400 ? 2 : 1;
+  const int reach = std::max(1, reach_px / scale);
   reduce(left, scale, left_);
   reduce(right, scale, right_);
   const Bytes left_contrast = std::as_const(left_.contrast).view(),
@@ -224,16 +237,9 @@ RowOffsets RowCheck::measure(ImageView<const std::uint8_t> left, ImageView<const
   std::array<Match, kColumns * kRows> matches;
   int count = 0;
   for (int cell = 0; cell < kColumns * kRows; ++cell) {
-    const int cx = cell % kColumns, cy = cell / kColumns, w = left_coarse.width, h = left_coarse.height;
-    constexpr int kStep = 4, kLeastTexture = 80;
-    int best = kLeastTexture, x = -1, y = -1;
-    for (int py = std::max(kMargin, cy * h / kRows); py < std::min(h - kMargin, (cy + 1) * h / kRows);
-         py += kStep)
-      for (int px = std::max(kMargin, cx * w / kColumns); px < std::min(w - kMargin, (cx + 1) * w / kColumns);
-           px += kStep)
-        if (const int t = texture(left_contrast, px, py); t > best) best = t, x = px, y = py;
-    int right_x = 0, right_y = 0;
-    if (x < 0 || !search(left_contrast, right_contrast, x, y, disparities, right_x, right_y)) continue;
+    int x = 0, y = 0, right_x = 0, right_y = 0;
+    if (!findTexture(left_contrast, cell, kBlock / 2 + reach, x, y)) continue;
+    if (!search(left_contrast, right_contrast, x, y, disparities, reach, right_x, right_y)) continue;
     Place place{static_cast<float>(right_x), static_cast<float>(right_y)};
     if (!settle(left_coarse, right_coarse, x, y, place)) continue;
     // The centre of a reduced pixel lies between full ones: take the one above and to the left of it.

@@ -18,15 +18,15 @@ struct RowOffsets {
 };
 
 /// Matches up to 160 well-textured points of the left view in two dimensions: by sums of absolute differences
-/// in views reduced to at most a quarter, then by Lucas & Kanade's method (1981) there and at full size.
-/// Finds offsets of up to 8 px at widths from 800 px, 4 px from 400, 2 px below. One thread computes, so that
-/// the result is the same anywhere; keeps its memory between frames.
+/// in views reduced to a quarter (a half below 800 px of width, not at all below 400), then by Lucas &
+/// Kanade's method (1981) there and at full size. One thread computes, so that the result is the same
+/// anywhere; keeps its memory between frames.
 class RowCheck {
  public:
   /// `left`, `right`: gray, of equal size. Disparities are looked for from `min_disparity` on,
-  /// `num_disparities` of them.
+  /// `num_disparities` of them, and rows up to `reach_px` up and down; the time grows with both.
   RowOffsets measure(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,
-                     int min_disparity, int num_disparities);
+                     int min_disparity, int num_disparities, int reach_px = 8);
 
  private:
   struct View {

@@ -60,6 +60,12 @@ std::string quoted(std::string_view text) {
   return "'" + shown + (text.size() > kReadable ? "...'" : "'");
 }
 
+std::string printable(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  return text;
+}
+
 bool parseNumber(std::string_view text, double& value) {
   return parseWhole(text, value);
 }

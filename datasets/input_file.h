@@ -20,6 +20,9 @@ inline constexpr std::size_t kMaxFileBytes = (std::size_t{1} << 31) + (std::size
 /// "nothing".
 std::string quoted(std::string_view text);
 
+/// `text` with control characters shown as '?', for names and messages that people read.
+std::string printable(std::string text);
+
 /// Parses the whole of `text` as a number in the C locale's notation; false if it is anything else.
 bool parseNumber(std::string_view text, double& value);
 bool parseNumber(std::string_view text, int& value);

@@ -24,13 +24,14 @@ struct Line {
   std::vector<std::string> fields;
 };
 
-// Quoted fields may hold commas, line ends and doubled quotes.
-std::vector<Line> splitLines(std::string_view text) {
+// Quoted fields may hold commas, line ends and doubled quotes. Spreadsheets put a byte order mark in front.
+std::vector<Line> splitLines(const std::string& path, std::string_view text) {
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
   std::vector<Line> lines;
   Line line{1, {}};
   std::string field;
   bool quoted = false;
-  int number = 1;
+  int number = 1, quoted_since = 1;
   const auto endLine = [&] {
     line.fields.push_back(std::move(field));
     if (line.fields.size() > 1 || !line.fields.front().empty()) lines.push_back(std::move(line));
@@ -49,6 +50,7 @@ std::vector<Line> splitLines(std::string_view text) {
         quoted = false;
     } else if (c == '"') {
       quoted = true;
+      quoted_since = number;
     } else if (c == ',') {
       line.fields.push_back(std::move(field));
       field.clear();
@@ -58,6 +60,7 @@ std::vector<Line> splitLines(std::string_view text) {
       field += c;
     }
   }
+  if (quoted) failAtLine(path, quoted_since, "a quote that begins here never ends");
   endLine();
   return lines;
 }
@@ -73,7 +76,7 @@ SceneFiles sceneOf(const fs::path& manifest, const std::map<std::string, std::st
   };
   SceneFiles files;
   files.layout = SceneLayout::kManifest;
-  files.split = fs::absolute(manifest).parent_path().filename().string();
+  files.folder = fs::absolute(manifest).lexically_normal().parent_path().string();
   files.left = path("left");
   files.right = path("right");
   files.ground_truth = path("gt");
@@ -96,18 +99,21 @@ SceneFiles sceneOf(const fs::path& manifest, const std::map<std::string, std::st
 
 std::vector<SceneFiles> readManifest(const std::string& path) {
   const std::string text = readFile(path);
-  const std::vector<Line> lines = splitLines(text);
+  const std::vector<Line> lines = splitLines(path, text);
   const std::vector<std::string> header = lines.empty() ? std::vector<std::string>() : lines.front().fields;
   const auto named = [&](std::string_view column) {
     return std::find(header.begin(), header.end(), column) != header.end();
   };
   if (!named("left") || !named("right"))
     failAtLine(path, 1, "expected the names of the columns, left and right among them");
-  for (const std::string& column : header)
+  for (const std::string& column : header) {
     if (std::find(kColumns.begin(), kColumns.end(), column) == kColumns.end())
       failAtLine(path, 1,
                  "unknown column " + pomona::quoted(column) +
                      "; allowed: left, right, name, gt, mask, calib, max_disparity");
+    if (std::count(header.begin(), header.end(), column) > 1)
+      failAtLine(path, 1, "a second column " + pomona::quoted(column));
+  }
 
   std::vector<SceneFiles> scenes;
   for (std::size_t i = 1; i < lines.size(); ++i) {

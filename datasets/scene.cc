@@ -7,31 +7,14 @@
 #include <limits>
 #include <stdexcept>
 #include <string_view>
+#include <tuple>
 
-#include "datasets/disparity_file.h"
-#include "datasets/image_file.h"
+#include "datasets/scene_parts.h"
 
 namespace pomona {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string shown(cv::Size size) {
-  return std::to_string(size.width) + "x" + std::to_string(size.height);
-}
-
-void requireSize(const std::string& path, const cv::Mat& image, cv::Size size) {
-  if (image.size() != size)
-    throw std::runtime_error(path + ": is " + shown(image.size()) + "; the left image is " + shown(size));
-}
-
-cv::Mat readByteMap(const std::string& path, cv::Size size) {
-  const cv::Mat map = readImage(path);
-  requireSize(path, map, size);
-  if (map.type() != CV_8UC1)
-    throw std::runtime_error(path + ": has " + describeType(map) + "; allowed: 1 channel of 8 bits");
-  return map;
-}
 
 std::string lowerCase(std::string text) {
   for (char& c : text)
@@ -44,32 +27,30 @@ int stepsPerPixel(const SceneFiles& files, int width) {
   constexpr std::array<std::string_view, 7> kPlanar = {"barn1",  "barn2",    "bull", "map",
                                                        "poster", "sawtooth", "venus"};
   constexpr double kWidth2003 = 1800, kWidth2005 = 1300;
-  const std::string scene = lowerCase(fs::path(files.left).parent_path().filename().string());
+  const fs::path left = fs::absolute(files.left).lexically_normal();  // from within, its folder is "."
+  const std::string scene = lowerCase(left.parent_path().filename().string());
   if (scene == "tsukuba") return 16;
   if (std::find(kPlanar.begin(), kPlanar.end(), scene) != kPlanar.end()) return 8;
-  const bool views = fs::path(files.left).stem() == "view1";
+  const bool views = left.stem() == "view1";
   const double reduction = (views ? kWidth2005 : kWidth2003) / width;
   return std::clamp(static_cast<int>(std::lround(reduction)), 1, views ? 3 : 4);
 }
 
-cv::Mat readTruth(const SceneFiles& files, cv::Size size) {
+cv::Mat readTruthOf(const SceneFiles& files, cv::Size size) {
+  if (files.layout != SceneLayout::kMiddlebury2) return readTruth(files.ground_truth, size);
   cv::Mat truth;
-  if (files.layout != SceneLayout::kMiddlebury2) {
-    truth = readDisparity(files.ground_truth);
-    requireSize(files.ground_truth, truth, size);
-    return truth;
-  }
   const cv::Mat steps = readByteMap(files.ground_truth, size);
   steps.convertTo(truth, CV_32F, 1.0 / stepsPerPixel(files, size.width));
   truth.setTo(std::numeric_limits<float>::quiet_NaN(), steps == 0);
+  if (cv::countNonZero(steps) == 0)
+    throw std::runtime_error(files.ground_truth + ": holds no known disparity");
   return truth;
 }
 
 cv::Mat readNonoccluded(const SceneFiles& files, const Scene& scene) {
   if (files.layout != SceneLayout::kKitti2012 && files.layout != SceneLayout::kKitti2015)
     return readByteMap(files.nonoccluded, scene.left.size());
-  const cv::Mat seen_by_both = readDisparity(files.nonoccluded);
-  requireSize(files.nonoccluded, seen_by_both, scene.left.size());
+  const cv::Mat seen_by_both = readTruth(files.nonoccluded, scene.left.size());
   cv::Mat mask(scene.left.size(), CV_8U, cv::Scalar(0));
   if (!scene.ground_truth.empty())
     mask.setTo(128, scene.ground_truth == scene.ground_truth);  // false for NaN
@@ -82,16 +63,11 @@ cv::Mat readNonoccluded(const SceneFiles& files, const Scene& scene) {
 Scene readScene(const SceneFiles& files) {
   if (!files.problem.empty()) throw std::runtime_error(files.problem);
   Scene scene;
-  scene.left = readImage(files.left);
-  scene.right = readImage(files.right);
-  requireSize(files.right, scene.right, scene.left.size());
-  if (scene.right.type() != scene.left.type())
-    throw std::runtime_error(files.right + ": has " + describeType(scene.right) + "; the left image has " +
-                             describeType(scene.left));
-  if (!files.ground_truth.empty()) scene.ground_truth = readTruth(files, scene.left.size());
+  std::tie(scene.left, scene.right) = readViews(files.left, files.right);
+  if (!files.ground_truth.empty()) scene.ground_truth = readTruthOf(files, scene.left.size());
   if (!files.nonoccluded.empty()) scene.nonoccluded = readNonoccluded(files, scene);
   if (!files.objects.empty()) scene.objects = readByteMap(files.objects, scene.left.size());
-  if (!files.calibration.empty()) scene.calibration = readMiddleburyCalibration(files.calibration);
+  if (!files.calibration.empty()) scene.calibration = readCalibration(files.calibration, scene.left.size());
   return scene;
 }
 
@@ -102,6 +78,7 @@ int disparitiesToReach(const cv::Mat& ground_truth) {
     for (int x = 0; x < ground_truth.cols; ++x)
       largest = std::fmax(largest, ground_truth.at<float>(y, x));  // fmax passes over NaN
   if (largest < 0) return 0;
+  largest = std::fmin(largest, static_cast<float>(ground_truth.cols));
   const int needed = static_cast<int>(std::ceil(largest)) + kMargin;
   return std::min((needed + kMultiple - 1) / kMultiple * kMultiple, ground_truth.cols);
 }
@@ -114,7 +91,7 @@ SceneFiles middleburyFiles(const std::string& folder) {
   };
   SceneFiles files;
   files.name = path.parent_path().filename().string();
-  files.split = path.parent_path().parent_path().filename().string();
+  files.folder = path.parent_path().parent_path().string();
   files.left = pathOf("im0.png");
   files.right = pathOf("im1.png");
   files.ground_truth = ifThere("disp0GT.pfm");

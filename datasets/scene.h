@@ -21,8 +21,8 @@ enum class SceneLayout {
 
 /// Where the parts of a scene lie. An empty path: the scene comes without this part.
 struct SceneFiles {
-  std::string name;   ///< for people and for result files, e.g. "cones", "000010_10"
-  std::string split;  ///< the folder the scene was found in, e.g. "trainingQ", "two_view_training"
+  std::string name;    ///< for people and for result files, e.g. "cones", "000010_10"
+  std::string folder;  ///< the absolute path of where the scene was found, e.g. ".../trainingQ"
   SceneLayout layout = SceneLayout::kMiddlebury3;
   std::string left, right;
   std::string ground_truth;  ///< .pfm or .png, as `layout` says
@@ -31,6 +31,9 @@ struct SceneFiles {
   std::string calibration;   ///< Middlebury's calib.txt
   int num_disparities = 0;   ///< range to search from 0 up, where the data set states one; else 0
   std::string problem;       ///< why readScene() will refuse the scene, where that is known already
+
+  /// The last part of `folder`, e.g. "trainingQ", "two_view_training".
+  std::string split() const { return folder.substr(folder.rfind('/') + 1); }
 };
 
 struct Scene {

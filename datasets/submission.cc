@@ -22,7 +22,7 @@ bool isMiddleburySplit(std::string_view split) {
   return split == "training" || split == "test";
 }
 
-// A name that had to be told apart from others, "training/000000_10", keeps its folder.
+// A name that had to be told apart from others, "training/000000_10", begins with the split it is of.
 struct Name {
   std::string folder, leaf;
   explicit Name(const std::string& scene)
@@ -31,8 +31,8 @@ struct Name {
 
 std::vector<OutputFile> middlebury(const SceneFiles& scene, const std::string& method, OutputMode mode,
                                    const cv::Mat& disparity, double seconds) {
-  const std::string folder =
-      isMiddleburySplit(scene.split) ? scene.split + "/" + Name(scene.name).leaf : scene.name;
+  const bool needs_split = isMiddleburySplit(scene.split()) && Name(scene.name).folder.empty();
+  const std::string folder = (needs_split ? scene.split() + "/" : "") + scene.name;
   const char* kind = mode == OutputMode::kSparse ? "_s" : "";
   return {{folder + "/disp0" + method + kind + ".pfm", encodePfm(disparity)},
           {folder + "/time" + method + ".txt", shown(seconds) + "\n"}};

@@ -17,7 +17,7 @@ namespace pomona {
 ///   (training or test, followed by F, H or Q);
 /// - KITTI 2015: disp_0/NNNNNN_10.png; KITTI 2012: NNNNNN_10.png;
 /// - ETH3D: low_res_two_view/SCENE.pfm and .txt, which holds "runtime SECONDS".
-/// A scene name with a folder in it, "training/000010_10", puts that folder in front.
+/// A scene name with folders in it, "2015/training/000010_10", puts them in front (of SPLIT: instead).
 /// `disparity` is CV_32F with NaN for unknown. Throws std::invalid_argument for a disparity that the format
 /// cannot hold.
 std::vector<OutputFile> submissionFiles(const SceneFiles& scene, const std::string& method, OutputMode mode,

@@ -9,13 +9,19 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "datasets/input_file.h"
+
 namespace pomona {
 namespace {
 
 namespace fs = std::filesystem;
 
+fs::path absolutePath(const fs::path& folder) {
+  return (fs::absolute(folder).lexically_normal() / "").parent_path();
+}
+
 std::string leafOf(const fs::path& folder) {
-  return (fs::absolute(folder).lexically_normal() / "").parent_path().filename().string();
+  return absolutePath(folder).filename().string();
 }
 
 bool isFolder(const fs::path& path) {
@@ -37,10 +43,10 @@ std::string imageCalled(const fs::path& folder, const std::string& stem) {
 
 SceneFiles eth3dOrMiddlebury(const fs::path& folder) {
   SceneFiles files = middleburyFiles(folder.string());
-  if (!files.split.starts_with("two_view")) return files;
+  if (!files.split().starts_with("two_view")) return files;
   files.layout = SceneLayout::kEth3d;
   if (files.ground_truth.empty()) {
-    const fs::path beside = folder / ".." / ".." / (files.split + "_gt") / files.name;
+    const fs::path beside = folder / ".." / ".." / (files.split() + "_gt") / files.name;
     if (isThere(beside / "disp0GT.pfm")) files.ground_truth = (beside / "disp0GT.pfm").lexically_normal();
     if (isThere(beside / "mask0nocc.png")) files.nonoccluded = (beside / "mask0nocc.png").lexically_normal();
   }
@@ -62,7 +68,7 @@ bool findMiddlebury2(const fs::path& folder, std::vector<SceneFiles>& scenes) {
     };
     SceneFiles files;
     files.name = leafOf(folder);
-    files.split = leafOf(folder / "..");
+    files.folder = absolutePath(folder).parent_path().string();
     files.layout = SceneLayout::kMiddlebury2;
     files.left = orPng(left, names.left);
     files.right = orPng(right, names.right);
@@ -98,7 +104,7 @@ bool findKitti(const fs::path& folder, std::vector<SceneFiles>& scenes) {
     for (const std::string& leaf : frames) {
       SceneFiles files;
       files.name = fs::path(leaf).stem();
-      files.split = leafOf(folder);
+      files.folder = absolutePath(folder).string();
       files.layout = names.layout;
       files.left = pathOf(names.left, leaf);
       files.right = pathOf(names.right, leaf);
@@ -122,7 +128,7 @@ bool isTruthBesideSplit(const fs::path& folder) {
 SceneFiles problemAt(const fs::path& folder, const std::string& problem) {
   SceneFiles files;
   files.name = leafOf(folder);
-  files.split = leafOf(folder / "..");
+  files.folder = absolutePath(folder).parent_path().string();
   files.problem = problem;
   return files;
 }
@@ -168,18 +174,33 @@ class Walker {
   std::set<fs::path> visited_;  // canonical; a link may lead back up
 };
 
-void makeNamesUnique(std::vector<SceneFiles>& scenes) {
-  const auto rename = [&](auto newName) {
-    std::map<std::string, int> uses;
-    for (const SceneFiles& scene : scenes) ++uses[scene.name];
+// Manifests may use a name twice: numbers follow it.
+void numberWithinFolders(std::vector<SceneFiles>& scenes) {
+  std::set<std::pair<std::string, std::string>> taken;  // folder, name
+  for (SceneFiles& scene : scenes) {
+    const std::string name = scene.name;
+    for (int n = 2; !taken.emplace(scene.folder, scene.name).second; ++n)
+      scene.name = name + "-" + std::to_string(n);
+  }
+}
+
+// Of folders that share a name, all scenes get one more of the folders above them in front of theirs, until
+// none do: scenes of one split stay together.
+void tellFoldersApart(std::vector<SceneFiles>& scenes) {
+  std::map<std::string, fs::path> above;  // by folder: the part of its path that no name holds yet
+  for (const SceneFiles& scene : scenes) above[scene.folder] = scene.folder;
+  for (;;) {
+    std::map<std::string, std::set<std::string>> folders_of;  // by name
+    for (const SceneFiles& scene : scenes) folders_of[scene.name].insert(scene.folder);
+    std::set<std::string> alike;
+    for (const auto& [name, folders] : folders_of)
+      if (folders.size() > 1) alike.insert(folders.begin(), folders.end());
+    if (alike.empty()) return;
     for (SceneFiles& scene : scenes)
-      if (uses[scene.name] > 1) scene.name = newName(scene);
-  };
-  rename([](const SceneFiles& scene) { return scene.split + "/" + scene.name; });
-  rename([](const SceneFiles& scene) {
-    return fs::absolute(scene.left).lexically_normal().parent_path().relative_path().string() + "/" +
-           fs::path(scene.left).stem().string();
-  });
+      if (const fs::path leaf = above[scene.folder].filename(); alike.contains(scene.folder) && !leaf.empty())
+        scene.name = printable(leaf.string()) + "/" + scene.name;
+    for (const std::string& folder : alike) above[folder] = above[folder].parent_path();
+  }
 }
 
 }  // namespace
@@ -192,7 +213,9 @@ std::vector<SceneFiles> findScenes(const std::vector<std::string>& roots) {
       throw std::runtime_error(root +
                                ": no scene found (of Middlebury, KITTI or ETH3D, or in a manifest.csv)");
   }
-  makeNamesUnique(walker.scenes);
+  for (SceneFiles& scene : walker.scenes) scene.name = printable(scene.name);
+  numberWithinFolders(walker.scenes);
+  tellFoldersApart(walker.scenes);
   return std::move(walker.scenes);
 }
 

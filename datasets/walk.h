@@ -17,15 +17,18 @@ namespace pomona {
 ///   2012): a scene for each frame NNNNNN_10.png.
 /// Folders are followed through symbolic links, each once. No file is opened but manifests: a scene that
 /// lacks an image is found, and readScene() says what is wrong with it; a manifest line or a folder that
-/// cannot be read is found as a scene with a `problem`. Names are made unique by the folder they were found
-/// in, or by their path. Throws std::runtime_error if a root is no folder, or there is no scene below it.
+/// cannot be read is found as a scene with a `problem`. Names are unique: where two folders hold scenes of
+/// one name, the names of all their scenes begin with as many folders above as it takes
+/// ("2012/training/000000_10"); a name that a manifest uses again is followed by a number ("pair-2"); control
+/// characters are shown as '?'. Throws std::runtime_error if a root is no folder, or there is no scene below
+/// it.
 std::vector<SceneFiles> findScenes(const std::vector<std::string>& roots);
 
 /// The scenes that a manifest lists: comma-separated lines, fields optionally in double quotes. The first
 /// line names the columns, in any order: left and right (required), name, gt, mask, calib, max_disparity.
 /// Paths are relative to the manifest's folder; max_disparity (a whole number, 1 to 1024) bounds the search
-/// to [0, max_disparity). Throws std::runtime_error for a file without that first line; a later line that
-/// makes no sense becomes a scene with a `problem`.
+/// to [0, max_disparity). Throws std::runtime_error for a file without that first line, or with a quote that
+/// never ends; a later line that makes no sense becomes a scene with a `problem`.
 std::vector<SceneFiles> readManifest(const std::string& path);
 
 }  // namespace pomona

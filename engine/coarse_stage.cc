@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/input.h"
+
 namespace pomona {
 
 void CoarseStage::completeScale(Scale& s, int factor, const MatchInput& pair,
@@ -25,7 +27,7 @@ void CoarseStage::completeScale(Scale& s, int factor, const MatchInput& pair,
   at_scale.match = scaledOptions(settings.match, ratio, w);
   at_scale.validation.speckle_size_px =
       static_cast<int>(std::lround(settings.validation.speckle_size_px / (ratio * ratio)));
-  at_scale.mask = {};
+  at_scale.mask = shrunkMask(settings.mask, w, h, s.mask);
   if (settings.match.cost.cost == MatchingCost::kMutualInformation)
     at_scale.mutual_information = s.mutual_information.table(small, at_scale);
   StageClock untimed;

@@ -21,7 +21,7 @@ class CoarseStage {
 
  private:
   struct Scale {
-    Image<std::uint8_t> left, right, guide;
+    Image<std::uint8_t> left, right, guide, mask;
     HierarchicalMi mutual_information;
     SparseStage sparse;
     BilateralScratch bilateral;

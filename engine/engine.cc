@@ -1,6 +1,5 @@
 #include "pomona/engine.h"
 
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -11,14 +10,9 @@
 #include "camera/row_check.h"
 #include "core/cpu.h"
 #include "core/parallel.h"
-#include "engine/coarse_stage.h"
-#include "engine/confidence.h"
-#include "engine/hierarchical_mi.h"
 #include "engine/input.h"
-#include "engine/refinement.h"
-#include "engine/sparse_stage.h"
-#include "pyramid/hole_fill.h"
-#include "pyramid/plane_fill.h"
+#include "engine/pipeline.h"
+#include "engine/trust.h"
 
 namespace pomona {
 namespace {
@@ -33,56 +27,26 @@ cv::Mat shared(Image<T>& image, int type) {
 
 struct StereoEngine::State {
   Options options;
-  Isa isa;
   int threads;
-
   std::optional<StereoCalibration> calibration;
   std::optional<Rectifier> rectifier;  // if the views need one
   cv::Mat left, right;                 // rectified
   InputPair input;
   RowCheck row_check;
-  HierarchicalMi mutual_information;
-  SparseStage sparse;
-  CoarseStage coarse;
-  PlaneFillScratch plane_fill;
-  HoleFillScratch hole_fill;
-  Refinement refinement;
-  Image<float> first_map;
-  Image<float> confidence;
+  Pipeline pipeline;
+  Trust trust;
   StereoResult result;
 
-  explicit State(const Options& o) : options(o), isa(chooseIsa(o.isa)) {
-    threads = o.threads > 0 ? o.threads : availableThreads();
+  explicit State(const Options& o)
+      : options(o),
+        threads(o.threads > 0 ? o.threads : availableThreads()),
+        pipeline(o, chooseIsa(o.isa), threads) {
     result.timings.reserve(32);
-  }
-  SparseStage::Settings settings(const cv::Mat& mask) const;
-  bool completesBy(CompletionMethod method) const {
-    return options.mode == OutputMode::kDense && options.completion.method == method;
   }
   cv::Mat rectify(const cv::Mat& left_view, const cv::Mat& right_view, const cv::Mat& mask);
   void checkRows();
-  void fillWithCoarse(const SparseStage::Settings& settings);
-  void complete(const SparseStage::Settings& settings, StageClock& clock);
-  void matchAgain(const SparseStage::Settings& settings, StageClock& clock);
-  void clampToRange();
   void publish();
 };
-
-SparseStage::Settings StereoEngine::State::settings(const cv::Mat& mask) const {
-  SparseStage::Settings s;
-  s.match = {options.min_disparity, options.num_disparities, options.cost, options.aggregation,
-             options.winner};
-  s.validation = options.validation;
-  if (completesBy(CompletionMethod::kFillHoles)) {
-    s.validation.left_right_px = options.completion.seed_left_right_px;
-    s.validation.speckle_size_px = options.completion.seed_speckle_size_px;
-  }
-  if (!mask.empty())
-    s.mask = {mask.ptr<std::uint8_t>(), mask.cols, mask.rows, static_cast<std::ptrdiff_t>(mask.step1())};
-  s.isa = isa;
-  s.threads = threads;
-  return s;
-}
 
 /// Sets `left` and `right`; returns the mask of the rectified left view.
 cv::Mat StereoEngine::State::rectify(const cv::Mat& left_view, const cv::Mat& right_view,
@@ -107,81 +71,12 @@ void StereoEngine::State::checkRows() {
   result.row_error_px = rows.worst_px;
 }
 
-/// The paper's dense map: every pixel from the coarse scales.
-void StereoEngine::State::fillWithCoarse(const SparseStage::Settings& settings) {
-  MatchMaps& maps = sparse.maps();
-  maps.resize(input.width(), input.height());
-  const ImageView<const float> map = coarse.run(input.views(), settings, options.completion);
-  parallelStrips(threads, map.height, 32, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < map.width; ++x) {
-        const bool masked = !settings.mask.empty() && settings.mask.at(y, x) == 0;
-        const float d = map.at(y, x);
-        maps.state.row(y)[x] =
-            static_cast<std::uint8_t>(masked ? PixelState::kMasked : PixelState::kFilledCoarse);
-        maps.disparity.row(y)[x] = masked          ? std::numeric_limits<float>::quiet_NaN()
-                                   : std::isnan(d) ? static_cast<float>(options.min_disparity)
-                                                   : d;
-      }
-  });
-}
-
-void StereoEngine::State::complete(const SparseStage::Settings& settings, StageClock& clock) {
-  MatchMaps& maps = sparse.maps();
-  const CompletionOptions& completion = options.completion;
-  const float min_disparity = static_cast<float>(options.min_disparity);
-  if (completion.segment_planes)
-    fillFromPlanes({.guide = input.views().guide,
-                    .right_disparity = maps.right_disparity.view(),
-                    .scale = completion.segment_scale,
-                    .min_disparity = min_disparity,
-                    .max_disparity = static_cast<float>(options.min_disparity + options.num_disparities - 1)},
-                   maps.disparity.view(), maps.state.view(), plane_fill, pyramidKernels(isa), threads);
-  clock.lap("segment planes");
-  const auto coarse_map = [&] { return coarse.run(input.views(), settings, completion); };
-  fillHoles({.guide = input.views().guide,
-             .right_disparity = maps.right_disparity.view(),
-             .coarse = coarse_map,
-             .search_radius_px = completion.search_radius_px,
-             .fallback_disparity = min_disparity},
-            maps.disparity.view(), maps.state.view(), hole_fill, pyramidKernels(isa), threads);
-  clock.lap("hole filling");
-  refinement.run(maps.disparity, input.views().guide, options.completion, filterKernels(isa), threads, clock);
-}
-
-/// Filling and smoothing may overshoot; no disparity leaves the searched range.
-void StereoEngine::State::clampToRange() {
-  Image<float>& disparity = sparse.maps().disparity;
-  const float low = static_cast<float>(options.min_disparity);
-  const float high = static_cast<float>(options.min_disparity + options.num_disparities - 1);
-  parallelStrips(threads, disparity.height(), 32, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < disparity.width(); ++x) {
-        float& d = disparity.row(y)[x];
-        d = d < low ? low : d > high ? high : d;  // NaN stays
-      }
-  });
-}
-
-/// The second pass: the completed map, which sparse.maps() holds, becomes the prior of another match.
-void StereoEngine::State::matchAgain(const SparseStage::Settings& settings, StageClock& clock) {
-  std::swap(first_map, sparse.maps().disparity);
-  MatchInput views = input.views();
-  views.prior = first_map.view();
-  SparseStage::Settings again = settings;
-  again.match.cost = options.second_pass.cost;
-  again.match.aggregation = options.second_pass.aggregation;
-  again.match.prior_weight = options.second_pass.weight;
-  again.match.prior_reach_px = options.second_pass.reach_px;
-  sparse.run(views, again, clock);
-  complete(settings, clock);
-}
-
 void StereoEngine::State::publish() {
-  MatchMaps& maps = sparse.maps();
+  MatchMaps& maps = pipeline.maps();
   result.disparity = shared(maps.disparity, CV_32F);
   result.state = shared(maps.state, CV_8U);
-  result.confidence = shared(confidence, CV_32F);
+  result.confidence = shared(trust.confidence, CV_32F);
+  result.sigma_px = shared(trust.sigma_px, CV_32F);
 }
 
 StereoEngine::StereoEngine(const Options& options) {
@@ -220,40 +115,24 @@ const StereoResult& StereoEngine::compute(const cv::Mat& left_view, const cv::Ma
   s.input.set(s.left, s.right, s.threads);
   requireRangeFits(s.options.min_disparity, s.options.num_disparities, s.left.cols);
   requireMaskFits(mask, s.left);
-  SparseStage::Settings settings = s.settings(mask);
   clock.lap("input");
   s.checkRows();
   if (s.options.row_check) clock.lap("row check");
-
-  const AggregationOptions* last_match = &s.options.aggregation;  // the one that the margins come from
-  if (s.completesBy(CompletionMethod::kPaper)) {
-    s.fillWithCoarse(settings);
-    clock.lap("coarse maps");
-  } else {
-    if (s.options.cost.cost == MatchingCost::kMutualInformation) {
-      settings.mutual_information = s.mutual_information.table(s.input.views(), settings);
-      clock.lap("mutual information");
-    }
-    s.sparse.run(s.input.views(), settings, clock);
-    if (s.completesBy(CompletionMethod::kFillHoles)) {
-      s.complete(settings, clock);
-      if (s.options.second_pass.enabled) {
-        s.matchAgain(settings, clock);
-        last_match = &s.options.second_pass.aggregation;
-      }
-    }
-  }
-  if (s.options.mode == OutputMode::kDense) s.clampToRange();
-  estimateConfidence(s.sparse.maps(), *last_match, s.confidence, s.threads);
+  s.pipeline.run(s.input.views(), maskView(mask), clock);
+  s.trust.estimate(s.pipeline.maps(), s.pipeline.largestCostSum(), s.pipeline.filterKernels(), s.threads);
+  if (s.options.mode == OutputMode::kSparse && s.options.validation.min_confidence > 0)
+    s.trust.reject(s.pipeline.maps(), s.options.validation.min_confidence, s.threads);
   clock.lap("confidence");
   s.publish();
   return s.result;
 }
 
-StereoResult computeDisparity(const cv::Mat& left, const cv::Mat& right, const Options& options) {
+StereoResult computeDisparity(const cv::Mat& left, const cv::Mat& right, const Options& options,
+                              const cv::Mat& mask) {
   StereoEngine engine(options);
-  StereoResult result = engine.compute(left, right);
-  for (cv::Mat* map : {&result.disparity, &result.state, &result.confidence}) *map = map->clone();
+  StereoResult result = engine.compute(left, right, mask);
+  for (cv::Mat* map : {&result.disparity, &result.state, &result.confidence, &result.sigma_px})
+    *map = map->clone();
   return result;
 }
 

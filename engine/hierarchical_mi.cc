@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/parallel.h"
+#include "engine/input.h"
 
 namespace pomona {
 namespace {
@@ -49,7 +50,7 @@ std::span<const std::uint8_t> HierarchicalMi::table(const MatchInput& pair,
 
     SparseStage::Settings at_level = settings;
     at_level.match = scaledOptions(settings.match, static_cast<double>(width) / w, w);
-    at_level.mask = {};
+    at_level.mask = shrunkMask(settings.mask, w, h, level.mask);
     const MatchInput small{level.left.view(),
                            level.right.view(),
                            {},

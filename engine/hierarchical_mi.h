@@ -21,7 +21,7 @@ class HierarchicalMi {
 
  private:
   struct Level {
-    Image<std::uint8_t> left, right;
+    Image<std::uint8_t> left, right, mask;
     SparseStage stage;
   };
   static constexpr std::array<int, 4> kFactors = {16, 8, 4, 2};

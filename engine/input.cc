@@ -1,7 +1,7 @@
 #include "engine/input.h"
 
 #include <algorithm>
-#include <bit>
+#include <initializer_list>
 #include <stdexcept>
 #include <string>
 
@@ -43,19 +43,36 @@ ImageView<const T> grayOf(const cv::Mat& image, Image<T>& buffer, int threads) {
   return buffer.view();
 }
 
-int largestValue(ImageView<const std::uint16_t> image) {
-  std::uint16_t largest = 0;
-  for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x) largest = std::max(largest, image.row(y)[x]);
-  return largest;
+constexpr std::int64_t kBrightShare = 1000;  // one value of so many may exceed what 8 bits can show
+
+/// By how many bits 16-bit values must shift for 8-bit stages: 10- and 12-bit cameras leave the top ones
+/// empty, and a few hot pixels or highlights must not cost the rest their contrast.
+int eightBitShift(std::initializer_list<ImageView<const std::uint16_t>> views) {
+  for (int shift = 8; shift > 0; --shift) {
+    const std::uint16_t too_large = static_cast<std::uint16_t>(1 << (7 + shift));
+    std::int64_t brighter = 0, total = 0;
+    for (const ImageView<const std::uint16_t>& view : views) {
+      total += std::int64_t{view.width} * view.height;
+      for (int y = 0; y < view.height; ++y) {
+        const std::uint16_t* row = view.row(y);
+        int in_row = 0;
+        for (int x = 0; x < view.width; ++x) in_row += row[x] >= too_large;
+        brighter += in_row;
+      }
+    }
+    if (brighter * kBrightShare > total) return shift;
+  }
+  return 0;
 }
 
+/// Values beyond 8 bits saturate.
 ImageView<const std::uint8_t> shiftedDown(ImageView<const std::uint16_t> in, int shift,
                                           Image<std::uint8_t>& buffer, int threads) {
   buffer.resize(in.width, in.height);
   parallelStrips(threads, in.height, 32, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
-      for (int x = 0; x < in.width; ++x) buffer.row(y)[x] = static_cast<std::uint8_t>(in.row(y)[x] >> shift);
+      for (int x = 0; x < in.width; ++x)
+        buffer.row(y)[x] = static_cast<std::uint8_t>(std::min(in.row(y)[x] >> shift, 255));
   });
   return buffer.view();
 }
@@ -89,10 +106,7 @@ void InputPair::set(const cv::Mat& left, const cv::Mat& right, int threads) {
     const ImageView<const std::uint8_t> v = viewOf<std::uint8_t>(left);
     guide = {v.data, left.cols, left.rows, left.channels(), v.stride};
   } else {
-    // 8-bit stages see the upper bits that are in use: 10- and 12-bit cameras leave the top ones empty.
-    const int largest =
-        std::max(largestValue(viewOf<std::uint16_t>(left)), largestValue(viewOf<std::uint16_t>(right)));
-    const int shift = std::max(0, static_cast<int>(std::bit_width(static_cast<unsigned>(largest))) - 8);
+    const int shift = eightBitShift({viewOf<std::uint16_t>(left), viewOf<std::uint16_t>(right)});
     for (int i = 0; i < 2; ++i) {
       gray16[i] = grayOf(*images[i], buffers_[i].gray16, threads);
       gray8[i] = shiftedDown(gray16[i], shift, buffers_[i].gray8, threads);
@@ -122,6 +136,25 @@ void requireMaskFits(const cv::Mat& mask, const cv::Mat& left) {
   if (mask.size() != left.size())
     throw std::invalid_argument("mask is " + sizeText(mask) + " but left is " + sizeText(left) +
                                 "; both must have the same size");
+}
+
+ImageView<const std::uint8_t> maskView(const cv::Mat& mask) {
+  if (mask.empty()) return {};
+  return viewOf<std::uint8_t>(mask);
+}
+
+ImageView<const std::uint8_t> shrunkMask(ImageView<const std::uint8_t> mask, int width, int height,
+                                         Image<std::uint8_t>& buffer) {
+  if (mask.empty()) return {};
+  const auto middle = [](int i, int n, int full) {
+    return static_cast<int>((2 * std::int64_t{i} + 1) * full / (2 * n));
+  };
+  buffer.resize(width, height);
+  for (int y = 0; y < height; ++y) {
+    const std::uint8_t* row = mask.row(middle(y, height, mask.height));
+    for (int x = 0; x < width; ++x) buffer.row(y)[x] = row[middle(x, width, mask.width)];
+  }
+  return buffer.view();
 }
 
 }  // namespace pomona

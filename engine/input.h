@@ -42,5 +42,11 @@ void requireRangeFits(int min_disparity, int num_disparities, int width);
 
 /// Throws unless `mask` is empty or CV_8U with the size of `left`.
 void requireMaskFits(const cv::Mat& mask, const cv::Mat& left);
+/// An empty view of an empty mask.
+ImageView<const std::uint8_t> maskView(const cv::Mat& mask);
+/// The mask for a pair reduced to width x height: each pixel's value is that at the middle of what it covers.
+/// An empty mask stays empty; otherwise the view is of `buffer`.
+ImageView<const std::uint8_t> shrunkMask(ImageView<const std::uint8_t> mask, int width, int height,
+                                         Image<std::uint8_t>& buffer);
 
 }  // namespace pomona

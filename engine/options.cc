@@ -1,22 +1,20 @@
 #include "pomona/options.h"
 
-#include <cmath>
+#include <charconv>
 #include <initializer_list>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 
 #include "core/cpu.h"
 #include "sgm/kernels.h"
-#include "sgm/mutual_information.h"
 
 namespace pomona {
 namespace {
 
 std::string text(double v) {
-  std::string s = std::to_string(v);
-  if (s.find('.') != std::string::npos) s.erase(s.find_last_not_of('0') + 1);
-  if (!s.empty() && s.back() == '.') s.pop_back();
-  return s;
+  char digits[32];
+  return {digits, std::to_chars(std::begin(digits), std::end(digits), v).ptr};
 }
 
 [[noreturn]] void refuse(const std::string& field, double value, const std::string& allowed) {
@@ -62,28 +60,11 @@ void validateMatch(const std::string& prefix, const CostOptions& cost, const Agg
 
 }  // namespace
 
-int maximumCost(MatchingCost cost) {
-  switch (cost) {
-    case MatchingCost::kCensus5x5:
-      return 24;
-    case MatchingCost::kCensus7x7:
-      return 48;
-    case MatchingCost::kCensus9x7:
-      return 62;
-    case MatchingCost::kCenterSymmetricCensus9x7:
-      return 31;
-    case MatchingCost::kMutualInformation:
-      return MutualInformation::kMaximumCost;
-    case MatchingCost::kBlended:
-      return 45;
-  }
-  return 255;
-}
-
 void Options::validate() const {
   requireRange("min_disparity", min_disparity, -16384, 16384);
   requireRange("num_disparities", num_disparities, 1, kMaxDisparities);
   requireEnum("mode", mode, OutputMode::kDense);
+  requireEnum("memory", memory, MemoryMode::kLow);
   requireRange("threads", threads, 0, 1024);
   chooseIsa(isa);
 
@@ -105,6 +86,7 @@ void Options::validate() const {
   requireRange("validation.speckle_size_px", validation.speckle_size_px, 0, 1 << 30);
   requireRange("validation.speckle_step_px", validation.speckle_step_px, 0, 1e6);
   requireOneOf("validation.median_size", validation.median_size, {0, 3, 5});
+  requireRange("validation.min_confidence", validation.min_confidence, 0, 1);
 
   requireEnum("completion.method", completion.method, CompletionMethod::kPaper);
   requireRange("completion.seed_left_right_px", completion.seed_left_right_px, -1e6, 1e6);

@@ -34,11 +34,15 @@ float nearlyLargest(ImageView<const float> map, float otherwise) {
 
 }  // namespace
 
-int estimateNumDisparities(const cv::Mat& left, const cv::Mat& right, int min_disparity) {
-  const int threads = availableThreads();
-  const Isa isa = chooseIsa({});
+int estimateNumDisparities(const cv::Mat& left, const cv::Mat& right, const Options& options,
+                           const cv::Mat& mask) {
+  options.validate();
+  const int threads = options.threads > 0 ? options.threads : availableThreads();
+  const int min_disparity = options.min_disparity;
+  const Isa isa = chooseIsa(options.isa);
   InputPair input;
   input.set(left, right, threads);
+  requireMaskFits(mask, left);
   requireRangeFits(min_disparity, 1, left.cols);
 
   const int width = scaledLength(left.cols, kFactor), height = scaledLength(left.rows, kFactor);
@@ -56,6 +60,8 @@ int estimateNumDisparities(const cv::Mat& left, const cv::Mat& right, int min_di
                     preset.cost, preset.aggregation, preset.winner};
   settings.match.winner.uniqueness_percent = 10;
   settings.validation = preset.validation;
+  Image<std::uint8_t> small_mask;
+  settings.mask = shrunkMask(maskView(mask), width, height, small_mask);
   settings.isa = isa;
   settings.threads = threads;
   SparseStage stage;

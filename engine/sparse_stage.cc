@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "core/parallel.h"
-#include "filters/left_right.h"
 #include "pomona/pixel_state.h"
 
 namespace pomona {
@@ -38,12 +37,12 @@ void SparseStage::run(const MatchInput& pair, const Settings& s, StageClock& clo
 
   if (v.left_right_px >= 0)
     leftRightCheck(maps_.disparity.view(), maps_.state.view(), maps_.right_disparity.view(), v.left_right_px,
-                   s.match.min_disparity, s.match.disparities, s.threads);
+                   s.match.min_disparity, s.match.disparities, left_right_, filterKernels(s.isa), s.threads);
   clock.lap("left-right check");
 
   if (v.speckle_size_px > 0)
     removeSpeckles(maps_.disparity.view(), maps_.state.view(), v.speckle_size_px, v.speckle_step_px, speckle_,
-                   s.threads);
+                   filterKernels(s.isa), s.threads);
   clock.lap("speckle");
 
   if (v.median_size > 0) {

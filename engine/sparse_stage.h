@@ -7,6 +7,7 @@
 #include "core/image.h"
 #include "engine/stage_clock.h"
 #include "filters/kernels.h"
+#include "filters/left_right.h"
 #include "filters/median.h"
 #include "filters/speckle.h"
 #include "sgm/matcher.h"
@@ -33,6 +34,7 @@ class SparseStage {
   SgmMatcher matcher_;
   MatchMaps maps_;
   Image<float> filtered_;
+  LeftRightScratch left_right_;
   SpeckleScratch speckle_;
   MedianScratch median_;
 };

@@ -43,12 +43,13 @@ KittiErrors::Region KittiErrors::all() const {
           background.outliers + foreground.outliers};
 }
 
-KittiErrors kittiErrors(const cv::Mat& disparity, const cv::Mat& truth, const cv::Mat& object_map) {
-  requireComparable(disparity, truth, {});
+KittiErrors kittiErrors(const cv::Mat& disparity, const cv::Mat& truth, const cv::Mat& object_map,
+                        const cv::Mat& mask) {
+  requireComparable(disparity, truth, mask);
   if (!object_map.empty()) requireLike("object map", object_map, truth.size(), CV_8U);
 
   KittiErrors errors;
-  forEachKnown(truth, {}, [&](int y, int x, float t) {
+  forEachKnown(truth, mask, [&](int y, int x, float t) {
     const bool is_object = !object_map.empty() && object_map.at<std::uint8_t>(y, x) != 0;
     KittiErrors::Region& region = is_object ? errors.foreground : errors.background;
     ++region.known;

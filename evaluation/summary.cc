@@ -32,6 +32,7 @@ double weightedMean(std::span<const double> values, std::span<const double> weig
 }
 
 double middleburyWeight(std::string_view scene) {
+  scene.remove_prefix(scene.rfind('/') + 1);  // npos + 1 is 0
   constexpr std::array<std::string_view, 5> kDifficult = {"PianoL", "Playroom", "Playtable", "Shelves",
                                                           "Vintage"};
   return std::find(kDifficult.begin(), kDifficult.end(), scene) != kDifficult.end() ? 0.5 : 1.0;

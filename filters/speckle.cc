@@ -35,21 +35,20 @@ void unite(Run* runs, int a, int b) {
   runs[a].size += runs[b].size;
 }
 
-/// Calls `visit(x)` in rising order for each x in [1, width) where row[x] is not connected to row[x - 1].
-template <typename Visit>
-void forEachBreak(const float* row, int width, float max_step_px, Visit visit) {
-  FlagChunk breaks;
+/// Calls `visit(x)` in rising order for each x in [1, width) that `flag(begin, count, flags)` flags.
+template <typename Flag, typename Visit>
+void forEachFlagged(int width, Flag flag, Visit visit) {
+  FlagChunk chunk;
   for (int begin = 1; begin < width; begin += FlagChunk::kPixels) {
     const int count = std::min(FlagChunk::kPixels, width - begin);
-    for (int i = 0; i < count; ++i)
-      breaks.flags[i] =
-          !(std::fabs(row[begin + i] - row[begin + i - 1]) <= max_step_px);  // NaN breaks as well
-    breaks.forEachSet(count, [&](int i) { visit(begin + i); });
+    flag(begin, count, chunk.flags);
+    chunk.forEachSet(count, [&](int i) { visit(begin + i); });
   }
 }
 
 /// Appends the runs of a row at `next`; returns the index after the last one.
-int appendRuns(const float* row, int width, float max_step_px, Run* runs, int next) {
+int appendRuns(const float* row, int width, float max_step_px, const FilterKernels& kernels, Run* runs,
+               int next) {
   int begin = 0;
   const auto close = [&](int end) {
     if (!std::isnan(row[begin])) {
@@ -58,33 +57,36 @@ int appendRuns(const float* row, int width, float max_step_px, Run* runs, int ne
     }
     begin = end;
   };
-  forEachBreak(row, width, max_step_px, close);
+  forEachFlagged(
+      width,
+      [&](int x, int count, std::uint8_t* flags) { kernels.breaks(row + x, count, max_step_px, flags); },
+      close);
   close(width);
   return next;
 }
 
 /// Unites the runs of two neighbouring rows that are connected somewhere.
-void linkRows(const float* upper, RowRuns above, const float* lower, RowRuns below, float max_step_px,
-              Run* runs) {
-  const auto connected = [&](int begin, int end) {
-    for (int x = begin; x < end; ++x)
-      if (std::fabs(upper[x] - lower[x]) <= max_step_px) return true;
-    return false;
+void linkRows(const float* upper, RowRuns above, const float* lower, RowRuns below, int width,
+              float max_step_px, const FilterKernels& kernels, Run* runs) {
+  int a = above.first, b = below.first;
+  const auto link = [&](int x) {  // both pixels are known, so both lie on runs
+    while (runs[a].end <= x) ++a;
+    while (runs[b].end <= x) ++b;
+    unite(runs, a, b);
   };
-  for (int a = above.first, b = below.first; a < above.last && b < below.last;) {
-    if (connected(std::max(runs[a].begin, runs[b].begin), std::min(runs[a].end, runs[b].end)))
-      unite(runs, a, b);
-    if (runs[a].end < runs[b].end)
-      ++a;
-    else
-      ++b;
-  }
+  if (std::fabs(upper[0] - lower[0]) <= max_step_px) link(0);
+  forEachFlagged(
+      width,
+      [&](int x, int count, std::uint8_t* flags) {
+        kernels.links(upper + x, lower + x, count, max_step_px, flags);
+      },
+      link);
 }
 
 }  // namespace
 
 void removeSpeckles(ImageView<float> disparity, ImageView<std::uint8_t> state, int min_size_px,
-                    float max_step_px, SpeckleScratch& scratch, int threads) {
+                    float max_step_px, SpeckleScratch& scratch, const FilterKernels& kernels, int threads) {
   const int width = disparity.width, height = disparity.height;
   if (disparity.empty() || min_size_px <= 1) return;
   scratch.runs.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
@@ -92,7 +94,7 @@ void removeSpeckles(ImageView<float> disparity, ImageView<std::uint8_t> state, i
   Run* runs = scratch.runs.data();
   RowRuns* rows = scratch.rows.data();
   const auto link = [&](int y) {
-    linkRows(disparity.row(y - 1), rows[y - 1], disparity.row(y), rows[y], max_step_px, runs);
+    linkRows(disparity.row(y - 1), rows[y - 1], disparity.row(y), rows[y], width, max_step_px, kernels, runs);
   };
 
   parallelFor(threads, (height + kStripRows - 1) / kStripRows, [&](int strip) {
@@ -100,7 +102,7 @@ void removeSpeckles(ImageView<float> disparity, ImageView<std::uint8_t> state, i
     int next = y_begin * width;
     for (int y = y_begin; y < y_end; ++y) {
       const int first = next;
-      next = appendRuns(disparity.row(y), width, max_step_px, runs, first);
+      next = appendRuns(disparity.row(y), width, max_step_px, kernels, runs, first);
       rows[y] = {first, next};
       if (y > y_begin) link(y);
     }

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "core/image.h"
+#include "filters/kernels.h"
 
 namespace pomona {
 
@@ -18,7 +19,7 @@ struct SpeckleScratch {
   struct RowRuns {
     int first, last;  ///< runs[first] up to, not including, runs[last]
   };
-  Buffer<Run> runs;
+  Buffer<Run, Pages::kSmall> runs;  // room for a run per pixel
   Buffer<RowRuns> rows;
 };
 
@@ -26,6 +27,6 @@ struct SpeckleScratch {
 /// `max_step_px`, and makes every pixel of components of fewer than `min_size_px` pixels unknown: disparity
 /// NaN, state PixelState::kSpeckle. Linear in the number of pixels, at most 2^31 of them.
 void removeSpeckles(ImageView<float> disparity, ImageView<std::uint8_t> state, int min_size_px,
-                    float max_step_px, SpeckleScratch& scratch, int threads);
+                    float max_step_px, SpeckleScratch& scratch, const FilterKernels& kernels, int threads);
 
 }  // namespace pomona

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/parallel.h"
-
 namespace pomona {
 namespace {
 
@@ -27,49 +25,68 @@ int adaptedPenalty(const AggregationOptions& o, int step) {
   return o.p2;
 }
 
-}  // namespace
-
-void WinnerMaps::resize(int width, int height) {
-  for (Image<std::uint16_t>* map :
-       {&index, &best, &below, &above, &second, &right_index, &right_best, &right_below, &right_above})
-    map->resize(width, height);
+/// Buffers that are walked together lie apart modulo 4096 bytes: a load whose lower 12 address bits equal
+/// those of a store in flight waits for it.
+constexpr std::size_t kPage = 4096, kStagger = 13 * 64;
+std::size_t staggered(std::size_t bytes) {
+  return (bytes + kPage - 1) / kPage * kPage + kStagger;
 }
+
+}  // namespace
 
 struct Aggregator::Pass {
   const MatchingCostRows& cost;
   const ColorSteps& steps;
   const AggregationOptions& options;
   const SgmKernels& kernels;
-  bool wide;  // 16-bit partial sums
+  MemoryMode memory;
 
-  std::size_t rowBytes() const {
-    return static_cast<std::size_t>(cost.width()) * cost.range().lanes() * (wide ? 2 : 1);
+  bool wide() const { return options.p2 > 63; }  // 16-bit partial sums
+  int height() const { return cost.height(); }
+  std::size_t sumRowBytes() const {
+    return static_cast<std::size_t>(cost.width()) * cost.range().lanes() * (wide() ? 2 : 1);
   }
-  // Sweep 0 covers rows 0 .. middle - 1 first, sweep 1 the others from the bottom up.
-  int middle() const { return cost.height() / 2; }
+  // With a guard pixel at either end.
+  std::size_t pathBytes() const {
+    return staggered(static_cast<std::size_t>(cost.width() + 2) * cost.range().lanes());
+  }
+  std::size_t minimaCount() const { return 4 * static_cast<std::size_t>(cost.width() + 2); }
+
+  // Sweep 0 covers rows 0 .. height / 2 - 1 first, sweep 1 the others from the bottom up.
+  int rowsOf(int which) const { return which == 0 ? height() / 2 : height() - height() / 2; }
+  int rowAt(int which, int i) const { return which == 0 ? i : height() - 1 - i; }
+  static int fromRow(int which) { return which == 0 ? -1 : 1; }
+
+  /// Rows from one checkpoint to the next: what the checkpoints take and what a block's sums take are then
+  /// about equal, which makes both together smallest.
+  int blockRows() const {
+    const double state = 3.0 * static_cast<double>(pathBytes()), sums = static_cast<double>(sumRowBytes());
+    return std::max(1, static_cast<int>(std::lround(std::sqrt(0.5 * height() * state / sums))));
+  }
 };
 
-void Aggregator::reset(const Pass& pass, Sweep& s) {
-  const int width = pass.cost.width();
-  const std::size_t bytes = static_cast<std::size_t>(width + 2) * pass.cost.range().lanes();
-  for (Buffer<std::uint8_t>& path : s.path) {
-    path.resize(bytes);
-    std::memset(path.data(), 0, bytes);
-  }
-  s.minima.resize(4 * static_cast<std::size_t>(width + 2));
-  std::fill_n(s.minima.data(), 4 * static_cast<std::size_t>(width + 2), 0u);
-  s.cost.start(pass.cost);
+std::size_t Aggregator::sumBytes(int width, int height, const DisparityRange& range,
+                                 const AggregationOptions& options) {
+  return static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * range.lanes() *
+         (options.p2 > 63 ? 2 : 1);
+}
+
+void Aggregator::restart(const Pass& pass, Paths& paths) {
+  paths.costs.resize(3 * pass.pathBytes());
+  std::memset(paths.costs.data(), 0, 3 * pass.pathBytes());
+  paths.minima.resize(pass.minimaCount());
+  std::fill_n(paths.minima.data(), pass.minimaCount(), 0u);
+  paths.cost.start(pass.cost);
 }
 
 /// The steps into row y come from row y + from_row (three paths) and from column x + from_column (the
 /// horizontal one).
-AggregateRow Aggregator::prepareRow(const Pass& pass, Sweep& s, int y, int from_row, int from_column) {
-  const int width = pass.cost.width();
+AggregateRow Aggregator::prepareRow(const Pass& pass, Paths& paths, int y, int from_row, int from_column,
+                                    std::uint8_t* sums) {
   const std::uint8_t *left = no_steps_.data(), *straight = left, *right = left, *horizontal = left;
   if (pass.options.adaptation != PenaltyAdaptation::kConstant) {
     const ColorSteps& steps = pass.steps;
-    const int seam =
-        from_row < 0 ? y : std::min(y + 1, pass.cost.height() - 1);  // the row that holds the steps
+    const int seam = from_row < 0 ? y : std::min(y + 1, pass.height() - 1);  // the row that holds the steps
     straight = steps.above(seam);
     // Upwards, (x - 1, y + 1) sees the step to (x, y) to its upper right, and (x + 1, y + 1) to its upper
     // left.
@@ -77,85 +94,139 @@ AggregateRow Aggregator::prepareRow(const Pass& pass, Sweep& s, int y, int from_
     right = from_row < 0 ? steps.aboveRight(seam) : steps.aboveLeft(seam) + 1;
     horizontal = steps.left(y) + (from_column < 0 ? 0 : 1);
   }
-  return {.width = width,
+  std::uint8_t* path = paths.costs.data();
+  const std::size_t path_bytes = pass.pathBytes();
+  return {.width = pass.cost.width(),
           .vectors = pass.cost.range().vectors,
           .diagonals = pass.options.paths == 8,
-          .wide_sums = pass.wide,
-          .cost = s.cost.row(y),
-          .path = {s.path[0].data(), s.path[1].data(), s.path[2].data()},
-          .minima = s.minima.data(),
+          .wide_sums = pass.wide(),
+          .cost = paths.cost.row(y),
+          .path = {path, path + path_bytes, path + 2 * path_bytes},
+          .minima = paths.minima.data(),
           .step = {left, straight, right, horizontal},
           .p2 = p2_of_step_.data(),
           .p1 = static_cast<std::uint8_t>(pass.options.p1),
-          .sums = sums_.data() + static_cast<std::size_t>(y) * pass.rowBytes()};
+          .sums = sums};
 }
 
 void Aggregator::firstPass(const Pass& pass, int which) {
   Sweep& s = sweep_[which];
-  reset(pass, s);
-  if (which == 0)
-    for (int y = 0; y < pass.middle(); ++y) pass.kernels.aggregateFirst(prepareRow(pass, s, y, -1, -1));
-  else
-    for (int y = pass.cost.height() - 1; y >= pass.middle(); --y)
-      pass.kernels.aggregateFirst(prepareRow(pass, s, y, 1, -1));
+  restart(pass, s.paths);
+  const bool keeps_sums = pass.memory == MemoryMode::kSpeed;
+  const int rows = pass.rowsOf(which), block = pass.blockRows();
+  const std::size_t costs = 3 * pass.pathBytes(), minima = pass.minimaCount();
+  if (!keeps_sums) {
+    const std::size_t checkpoints = static_cast<std::size_t>(rows / block + 1);
+    s.checkpoint_costs.resize(checkpoints * costs);
+    s.checkpoint_minima.resize(checkpoints * minima);
+    s.block_sums.resize(static_cast<std::size_t>(block) * pass.sumRowBytes());
+  }
+  for (int i = 0; i < rows; ++i) {
+    const int y = pass.rowAt(which, i);
+    if (!keeps_sums && i % block == 0) {
+      std::memcpy(s.checkpoint_costs.data() + i / block * costs, s.paths.costs.data(), costs);
+      std::copy_n(s.paths.minima.data(), minima, s.checkpoint_minima.data() + i / block * minima);
+    }
+    std::uint8_t* sums = keeps_sums ? sums_.data() + y * pass.sumRowBytes() : s.block_sums.data();
+    pass.kernels.aggregateFirst(prepareRow(pass, s.paths, y, Pass::fromRow(which), -1, sums));
+  }
 }
 
-void Aggregator::lastPass(const Pass& pass, int which, WinnerMaps& out) {
-  Sweep& s = sweep_[which];
+WinnerRow Aggregator::prepareWinners(const Pass& pass, Sweep& s) {
   const DisparityRange& range = pass.cost.range();
   const int recent_pixels = static_cast<int>(std::bit_ceil(static_cast<unsigned>(range.disparities + 2)));
   s.recent_sums.resize(static_cast<std::size_t>(recent_pixels) * range.lanes());
-  const auto complete = [&](int y, int from_row) {
-    for (Image<std::uint16_t>* map : {&out.right_index, &out.right_best, &out.right_below, &out.right_above})
-      std::fill_n(map->row(y), pass.cost.width(), kNoIndex);
-    pass.kernels.aggregateLast(prepareRow(pass, s, y, from_row, 1),
-                               {.disparities = range.disparities,
-                                .min_disparity = range.min_disparity,
-                                .position = position_.data(),
-                                .labels = labels_.data(),
-                                .padded = range.disparities < range.lanes(),
-                                .padding = padding_.data(),
-                                .index = out.index.row(y),
-                                .best = out.best.row(y),
-                                .below = out.below.row(y),
-                                .above = out.above.row(y),
-                                .second = out.second.row(y),
-                                .right_index = out.right_index.row(y),
-                                .right_best = out.right_best.row(y),
-                                .right_below = out.right_below.row(y),
-                                .right_above = out.right_above.row(y),
-                                .recent = s.recent_sums.data(),
-                                .recent_mask = recent_pixels - 1});
-  };
-  if (which == 0)
-    for (int y = pass.middle(); y < pass.cost.height(); ++y) complete(y, -1);
-  else
-    for (int y = pass.middle() - 1; y >= 0; --y) complete(y, 1);
+  const std::size_t step = staggered(sizeof(std::uint16_t) * pass.cost.width()) / sizeof(std::uint16_t);
+  s.winners.resize(9 * step);
+  const auto row = [&](int k) { return s.winners.data() + k * step; };
+  return {.disparities = range.disparities,
+          .min_disparity = range.min_disparity,
+          .position = position_.data() + 1,
+          .labels = labels_.data(),
+          .padded = range.disparities < range.lanes(),
+          .padding = padding_.data(),
+          .index = row(0),
+          .best = row(1),
+          .below = row(2),
+          .above = row(3),
+          .second = row(4),
+          .right_index = row(5),
+          .right_best = row(6),
+          .right_below = row(7),
+          .right_above = row(8),
+          .recent = s.recent_sums.data(),
+          .recent_mask = recent_pixels - 1};
 }
 
-void Aggregator::run(const MatchingCostRows& cost, const ColorSteps& steps, const AggregationOptions& options,
-                     const SgmKernels& kernels, WinnerMaps& out, int threads) {
-  const DisparityRange& range = cost.range();
-  const Pass pass{cost, steps, options, kernels, options.p2 > 63};
-  for (int step = 0; step < 256; ++step) p2_of_step_[step] = quad(adaptedPenalty(options, step));
+/// Completes the sums of row y, which hold those of the other sweep.
+void Aggregator::complete(const Pass& pass, Sweep& s, int y, int from_row, std::uint8_t* sums,
+                          WinnerSink sink) {
+  const WinnerRow winners = prepareWinners(pass, s);
+  for (std::uint16_t* right :
+       {winners.right_index, winners.right_best, winners.right_below, winners.right_above})
+    std::fill_n(right, pass.cost.width(), kNoIndex);
+  pass.kernels.aggregateLast(prepareRow(pass, s.paths, y, from_row, 1, sums), winners);
+  sink(y, winners);
+}
 
-  no_steps_.resize(cost.width());
-  std::fill_n(no_steps_.data(), cost.width(), std::uint8_t{0});
-  const int lanes = range.lanes();
-  position_.resize(range.disparities);
+void Aggregator::lastPass(const Pass& pass, int which, WinnerSink sink) {
+  const int other = 1 - which;
+  for (int i = pass.rowsOf(other) - 1; i >= 0; --i) {
+    const int y = pass.rowAt(other, i);
+    complete(pass, sweep_[which], y, Pass::fromRow(which), sums_.data() + y * pass.sumRowBytes(), sink);
+  }
+}
+
+void Aggregator::lastPassInBlocks(const Pass& pass, int which, WinnerSink sink) {
+  Sweep& s = sweep_[which];
+  const int other = 1 - which;
+  const Sweep& crossed = sweep_[other];
+  const int rows = pass.rowsOf(other), block = pass.blockRows();
+  const std::size_t costs = 3 * pass.pathBytes(), minima = pass.minimaCount();
+  restart(pass, s.repeated);
+  s.block_sums.resize(static_cast<std::size_t>(block) * pass.sumRowBytes());
+  const auto sumsOf = [&](int i) { return s.block_sums.data() + i % block * pass.sumRowBytes(); };
+  for (int begin = (rows - 1) / block * block; begin >= 0 && rows > 0; begin -= block) {
+    const int end = std::min(rows, begin + block);
+    std::memcpy(s.repeated.costs.data(), crossed.checkpoint_costs.data() + begin / block * costs, costs);
+    std::copy_n(crossed.checkpoint_minima.data() + begin / block * minima, minima, s.repeated.minima.data());
+    for (int i = begin; i < end; ++i)
+      pass.kernels.aggregateFirst(
+          prepareRow(pass, s.repeated, pass.rowAt(other, i), Pass::fromRow(other), -1, sumsOf(i)));
+    for (int i = end - 1; i >= begin; --i)
+      complete(pass, s, pass.rowAt(other, i), Pass::fromRow(which), sumsOf(i), sink);
+  }
+}
+
+void Aggregator::prepareTables(const Pass& pass) {
+  const DisparityRange& range = pass.cost.range();
+  for (int step = 0; step < 256; ++step) p2_of_step_[step] = quad(adaptedPenalty(pass.options, step));
+  no_steps_.resize(pass.cost.width());
+  std::fill_n(no_steps_.data(), pass.cost.width(), std::uint8_t{0});
+
+  const int lanes = range.lanes(), last = range.disparities - 1;
+  const auto at = [&](int d) {
+    return static_cast<std::uint16_t>(wordPosition(d, range.vectors, range.vector_bytes));
+  };
+  position_.resize(range.disparities + 2);
+  for (int d = -1; d <= range.disparities; ++d) position_[d + 1] = at(std::clamp(d, 0, last));
   labels_.resize(lanes);
   padding_.resize(lanes);
   for (int d = 0; d < lanes; ++d) {
-    const int at = wordPosition(d, range.vectors, range.vector_bytes);
-    if (d < range.disparities) position_[d] = static_cast<std::uint16_t>(at);
-    labels_[at] = d < range.disparities ? static_cast<std::uint16_t>(d) : kNoIndex;
-    padding_[at] = d < range.disparities ? 0 : 0xFFFF;
+    labels_[at(d)] = d <= last ? static_cast<std::uint16_t>(d) : kNoIndex;
+    padding_[at(d)] = d <= last ? 0 : 0xFFFF;
   }
-  sums_.resize(pass.rowBytes() * cost.height());
-  out.resize(cost.width(), cost.height());
+}
 
+void Aggregator::run(const MatchingCostRows& cost, const ColorSteps& steps, const AggregationOptions& options,
+                     MemoryMode memory, const SgmKernels& kernels, WinnerSink sink, int threads) {
+  const Pass pass{cost, steps, options, kernels, memory};
+  prepareTables(pass);
+  if (memory == MemoryMode::kSpeed) sums_.resize(pass.sumRowBytes() * cost.height());
   parallelFor(threads, 2, [&](int which) { firstPass(pass, which); });
-  parallelFor(threads, 2, [&](int which) { lastPass(pass, which, out); });
+  parallelFor(threads, 2, [&](int which) {
+    memory == MemoryMode::kSpeed ? lastPass(pass, which, sink) : lastPassInBlocks(pass, which, sink);
+  });
 }
 
 }  // namespace pomona

@@ -5,42 +5,62 @@
 #include <cstdint>
 
 #include "core/image.h"
+#include "core/parallel.h"
 #include "pomona/options.h"
 #include "sgm/cost.h"
 #include "sgm/kernels.h"
 
 namespace pomona {
 
-/// What winner-take-all leaves for every pixel; WinnerRow names the fields. All of the image's size.
-struct WinnerMaps {
-  Image<std::uint16_t> index, best, below, above, second, right_index, right_best, right_below, right_above;
-
-  void resize(int width, int height);
-};
+/// Takes the winners of row y, which are valid until it returns. Called once for every row, in any order,
+/// from up to two threads at a time.
+using WinnerSink = FunctionRef<void(int y, const WinnerRow& winners)>;
 
 /// One sweep starts at the top row, one at the bottom row. First each covers its half of the image, walking
 /// its rows left to right and storing the sum of its four (two) path costs; then each crosses into the other
 /// half, walking right to left, completes the sums it finds there and picks the winners. So two threads need
 /// one barrier, and every pixel's sum is the same whoever computed it.
+///
+/// Low memory: the first pass stores no sums but, every few rows, the state of its paths (a checkpoint). The
+/// sweep that crosses over restores the last checkpoint ahead of it, repeats the first pass over the rows
+/// that follow it, keeping their sums, and completes those. One pass more, the same sums.
 class Aggregator {
  public:
-  /// `steps`: of the left image, the source of P2 adaptation.
+  /// `steps`: of the left image, the source of P2 adaptation. `memory` must not be kAutomatic.
   void run(const MatchingCostRows& cost, const ColorSteps& steps, const AggregationOptions& options,
-           const SgmKernels& kernels, WinnerMaps& out, int threads);
+           MemoryMode memory, const SgmKernels& kernels, WinnerSink sink, int threads);
+
+  /// Bytes of the sums that kSpeed keeps.
+  static std::size_t sumBytes(int width, int height, const DisparityRange& range,
+                              const AggregationOptions& options);
 
  private:
-  struct Sweep {
-    std::array<Buffer<std::uint8_t>, 3> path;
+  /// What the paths of a sweep carry from row to row.
+  struct Paths {
+    Buffer<std::uint8_t> costs;
     Buffer<std::uint32_t> minima;
     CostRowReader cost;
+  };
+  struct Sweep {
+    Paths paths;
+    Paths repeated;  // low memory: of the other sweep's first pass
+    Buffer<std::uint8_t> checkpoint_costs;
+    Buffer<std::uint32_t> checkpoint_minima;
+    Buffer<std::uint8_t> block_sums;  // low memory: of the rows between two checkpoints
     Buffer<std::uint16_t> recent_sums;
+    Buffer<std::uint16_t> winners;  // of one row
   };
   struct Pass;
 
-  void reset(const Pass& pass, Sweep& sweep);
+  void prepareTables(const Pass& pass);
+  void restart(const Pass& pass, Paths& paths);
   void firstPass(const Pass& pass, int which);
-  void lastPass(const Pass& pass, int which, WinnerMaps& out);
-  AggregateRow prepareRow(const Pass& pass, Sweep& sweep, int y, int from_row, int from_column);
+  void lastPass(const Pass& pass, int which, WinnerSink sink);
+  void lastPassInBlocks(const Pass& pass, int which, WinnerSink sink);
+  AggregateRow prepareRow(const Pass& pass, Paths& paths, int y, int from_row, int from_column,
+                          std::uint8_t* sums);
+  WinnerRow prepareWinners(const Pass& pass, Sweep& sweep);
+  void complete(const Pass& pass, Sweep& sweep, int y, int from_row, std::uint8_t* sums, WinnerSink sink);
 
   std::array<Sweep, 2> sweep_;
   Buffer<std::uint8_t> sums_;

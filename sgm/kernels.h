@@ -95,7 +95,7 @@ struct AggregateRow {
 
 struct WinnerRow {
   int disparities, min_disparity;
-  const std::uint16_t* position;  ///< wordPosition of every disparity index
+  const std::uint16_t* position;  ///< wordPosition of every disparity index; the ends repeat at -1 and D
   const std::uint16_t* labels;    ///< disparity index of every word position, kNoIndex for padding
   bool padded;                    ///< whether there are padded disparities
   const std::uint16_t* padding;   ///< 0xFFFF at padded word positions, 0 elsewhere

@@ -8,23 +8,24 @@
 namespace pomona {
 namespace {
 
-void finishRow(const WinnerMaps& w, int y, const MatchOptions& o, const SgmKernels& kernels, MatchMaps& out) {
-  const int width = w.index.width();
-  const auto refine = kernels.refine[static_cast<int>(o.winner.subpixel)];
-  refine({width, o.disparities, o.min_disparity, w.index.row(y), w.best.row(y), w.below.row(y),
-          w.above.row(y), out.disparity.row(y)});
-  refine({width, o.disparities, o.min_disparity, w.right_index.row(y), w.right_best.row(y),
-          w.right_below.row(y), w.right_above.row(y), out.right_disparity.row(y)});
+/// The sums kept at most for the sake of speed.
+constexpr std::size_t kMostSumBytes = std::size_t{256} << 20;
 
-  const float per_path = 1.0f / static_cast<float>(o.aggregation.paths);
+void finishRow(const WinnerRow& w, int y, const MatchOptions& o, const SgmKernels& kernels, MatchMaps& out) {
+  const int width = out.disparity.width();
+  const auto refine = kernels.refine[static_cast<int>(o.winner.subpixel)];
+  refine({width, o.disparities, o.min_disparity, w.index, w.best, w.below, w.above, out.disparity.row(y)});
+  refine({width, o.disparities, o.min_disparity, w.right_index, w.right_best, w.right_below, w.right_above,
+          out.right_disparity.row(y)});
+
   const int keep_percent = 100 - o.winner.uniqueness_percent;
   const bool everything = o.winner.uniqueness_percent == 0;
-  const std::uint16_t *best = w.best.row(y), *second = w.second.row(y);
-  float* margin = out.margin.row(y);
+  std::uint16_t *margin = out.margin.row(y), *curvature = out.curvature.row(y);
   std::uint8_t* state = out.state.row(y);
   for (int x = 0; x < width; ++x) {
-    margin[x] = static_cast<float>(std::max(0, second[x] - best[x])) * per_path;
-    const bool unique = everything | (100 * best[x] <= keep_percent * second[x]);
+    margin[x] = static_cast<std::uint16_t>(std::max(0, w.second[x] - w.best[x]));
+    curvature[x] = static_cast<std::uint16_t>(std::max(0, w.below[x] + w.above[x] - 2 * w.best[x]));
+    const bool unique = everything | (100 * w.best[x] <= keep_percent * w.second[x]);
     state[x] = static_cast<std::uint8_t>(unique ? PixelState::kMeasured : PixelState::kAmbiguous);
   }
 }
@@ -35,6 +36,7 @@ void MatchMaps::resize(int width, int height) {
   disparity.resize(width, height);
   right_disparity.resize(width, height);
   margin.resize(width, height);
+  curvature.resize(width, height);
   state.resize(width, height);
 }
 
@@ -51,9 +53,9 @@ MatchingCostRows::Features SgmMatcher::extract(ImageView<const std::uint8_t> gra
   return {&view.census, view.sobel.view(), gray};
 }
 
-void SgmMatcher::match(const MatchInput& pair, const MatchOptions& options,
-                       std::span<const std::uint8_t> table, const SgmKernels& kernels, MatchMaps& out,
-                       int threads) {
+void SgmMatcher::findWinners(const MatchInput& pair, const MatchOptions& options,
+                             std::span<const std::uint8_t> table, const SgmKernels& kernels, WinnerSink sink,
+                             int threads) {
   const MatchingCost kind = options.cost.cost;
   const int width = pair.left.width, height = pair.left.height;
   const DisparityRange range = makeRange(options.min_disparity, options.disparities, kernels);
@@ -72,12 +74,21 @@ void SgmMatcher::match(const MatchInput& pair, const MatchOptions& options,
   cost_.prepareSupport(steps_, options.cost.support_color_step, threads);
   if (!pair.prior.empty())
     cost_.preparePrior(pair.prior, options.prior_weight, options.prior_reach_px, threads);
-  aggregator_.run(cost_, steps_, options.aggregation, kernels, winners_, threads);
 
-  out.resize(width, height);
-  parallelStrips(threads, height, 16, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) finishRow(winners_, y, options, kernels, out);
-  });
+  MemoryMode memory = options.memory;
+  if (memory == MemoryMode::kAutomatic)
+    memory = Aggregator::sumBytes(width, height, range, options.aggregation) > kMostSumBytes
+                 ? MemoryMode::kLow
+                 : MemoryMode::kSpeed;
+  aggregator_.run(cost_, steps_, options.aggregation, memory, kernels, sink, threads);
+}
+
+void SgmMatcher::match(const MatchInput& pair, const MatchOptions& options,
+                       std::span<const std::uint8_t> table, const SgmKernels& kernels, MatchMaps& out,
+                       int threads) {
+  out.resize(pair.left.width, pair.left.height);
+  const auto finish = [&](int y, const WinnerRow& winners) { finishRow(winners, y, options, kernels, out); };
+  findWinners(pair, options, table, kernels, finish, threads);
 }
 
 }  // namespace pomona

@@ -22,8 +22,6 @@ struct MatchInput {
   GuideView guide;  ///< the left view with its colours: steers penalties and supports
 
   ImageView<const float> prior = {};  ///< empty, or disparities to be drawn to
-
-  bool isDeep() const { return !left16.empty(); }
 };
 
 struct MatchOptions {
@@ -32,16 +30,20 @@ struct MatchOptions {
   CostOptions cost;
   AggregationOptions aggregation;
   WinnerOptions winner;
-  int prior_weight = 0,
-      prior_reach_px = 0;  ///< see MatchingCostRows::preparePrior; used with MatchInput::prior
+  MemoryMode memory = MemoryMode::kAutomatic;
+  // See MatchingCostRows::preparePrior; used with MatchInput::prior.
+  int prior_weight = 0;
+  int prior_reach_px = 0;
 };
 
 /// Unvalidated disparities, pixels, of the image's size.
 struct MatchMaps {
   Image<float> disparity;        ///< of the left view; never NaN
   Image<float> right_disparity;  ///< of the right view; NaN where no left pixel maps to
-  Image<float> margin;           ///< (second-best - best) sum per path: how clearly the winner won, >= 0
-  Image<std::uint8_t> state;     ///< PixelState: measured, or ambiguous where uniqueness fails
+  /// Of the path sums S: how clearly the winner won, the lowest more than one disparity away less S(d),
+  /// large if there is none; and how sharply, S(d - 1) + S(d + 1) - 2 S(d).
+  Image<std::uint16_t> margin, curvature;
+  Image<std::uint8_t> state;  ///< PixelState: measured, or ambiguous where uniqueness fails
 
   void resize(int width, int height);
 };
@@ -52,8 +54,9 @@ class SgmMatcher {
   void match(const MatchInput& pair, const MatchOptions& options, std::span<const std::uint8_t> table,
              const SgmKernels& kernels, MatchMaps& out, int threads);
 
-  /// The sums behind the last match.
-  const WinnerMaps& winners() const { return winners_; }
+  /// The same up to the winners of each row, for whoever wants to look at the sums behind a match.
+  void findWinners(const MatchInput& pair, const MatchOptions& options, std::span<const std::uint8_t> table,
+                   const SgmKernels& kernels, WinnerSink sink, int threads);
 
  private:
   struct View {
@@ -71,7 +74,6 @@ class SgmMatcher {
   ColorSteps steps_;
   MatchingCostRows cost_;
   Aggregator aggregator_;
-  WinnerMaps winners_;
 };
 
 }  // namespace pomona

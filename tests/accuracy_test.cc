@@ -46,6 +46,16 @@ TEST(AccuracyGuard, PassesWhatIsNoWorse) {
   EXPECT_EQ(s.failures(), 0u);
 }
 
+TEST(AccuracyGuard, HoldsSomeScenesAgainstThoseAlone) {
+  Setting s;
+  Figures bad;
+  bad.fill(99);
+  s.accepted[0].scenes.push_back({"another", bad, bad});  // would lift the accepted mean
+  EXPECT_EQ(s.failures(), 0u);
+  s.found[0] = figures("ours dense", MapKind::kDense, 8.2);
+  EXPECT_EQ(s.failures(), 2u);
+}
+
 TEST(AccuracyGuard, FailsWhatSlippedAndWhatLosesToThePeer) {
   Setting slipped;
   slipped.found[0] = figures("ours dense", MapKind::kDense, 8.2);
@@ -59,17 +69,38 @@ TEST(AccuracyGuard, FailsWhatSlippedAndWhatLosesToThePeer) {
   Setting broken;
   broken.found[1] = figures("paper dense", MapKind::kDense, std::nan(""));
   EXPECT_EQ(broken.failures(), 2u);
-  Setting other_scenes;
-  other_scenes.accepted[0].scenes.push_back({"another", {}, {}});
-  EXPECT_EQ(other_scenes.failures(), 1u);
+  Setting unknown_scene;
+  unknown_scene.found[0].scenes.push_back({"another", {}, {}});
+  EXPECT_EQ(unknown_scene.failures(), 1u);
   Setting unknown;
   unknown.accepted.erase(unknown.accepted.begin());
   EXPECT_EQ(unknown.failures(), 1u);
 }
 
+TEST(AccuracyGuard, FailsWhatSlippedWhereBothCamerasSeeOnly) {
+  Setting s;
+  for (auto* figures : {&s.found, &s.accepted})
+    (*figures)[0].scenes[0].nonoccluded = (*figures)[0].scenes[0].all;
+  EXPECT_EQ(s.failures(), 0u);
+  s.found[0].scenes[0].nonoccluded[kBad1] += 0.2;
+  EXPECT_EQ(s.failures(), 1u);
+  s.found[0].scenes[0].nonoccluded = noFigures();
+  EXPECT_EQ(s.failures(), 3u);
+}
+
+TEST(AccuracyGuard, LeavesOutWhatRanOnNoScene) {
+  Setting s;
+  s.found[1].scenes.clear();
+  EXPECT_EQ(s.failures(), 0u);
+  EXPECT_TRUE(isGuardedOn("asw", "cones"));
+  EXPECT_FALSE(isGuardedOn("asw", "Aloe-full"));
+  EXPECT_TRUE(isGuardedOn("ncc", "Aloe-full"));
+}
+
 TEST(AccuracyReport, JsonIsReadBack) {
   Setting s;
-  s.found[0].scenes.push_back({"second", {}, {}});  // all figures 0: the mean halves
+  s.found[0].scenes.push_back({"a \"second\"", {}, {}});  // all figures 0: the mean halves
+  s.found[3].scenes[0].all[kBad2] = 1.234567;
   const std::string path = ::testing::TempDir() + "accuracy_report.json";
   std::ofstream(path) << json(s.found);
   const std::vector<MethodFigures> read = readFigures(path);
@@ -78,7 +109,8 @@ TEST(AccuracyReport, JsonIsReadBack) {
   EXPECT_EQ(read[0].method, "ours dense");
   EXPECT_EQ(read[3].kind, MapKind::kSparse);
   ASSERT_EQ(read[0].scenes.size(), 2u);
-  EXPECT_EQ(read[0].scenes[1].scene, "second");
+  EXPECT_EQ(read[0].scenes[1].scene, "a \"second\"");
+  EXPECT_EQ(read[3].scenes[0].all[kBad2], 1.234567);  // not what the tables show
   EXPECT_EQ(read[0].mean().all[kBad1], 4);
   EXPECT_EQ(read[3].scenes[0].all[kCoverage], 80);
   EXPECT_TRUE(std::isnan(read[3].scenes[0].nonoccluded[kCoverage]));
@@ -91,8 +123,10 @@ TEST(AccuracyReport, MeansLeaveOutWhatASceneLacks) {
   unknown.fill(std::nan(""));
   EXPECT_EQ(meanOf({known, unknown})[kBad2], 3);
   EXPECT_TRUE(std::isnan(meanOf({unknown})[kBad2]));
-  EXPECT_NE(markdown({figures("ours dense", MapKind::kDense, 8)}).find("| only | 8.00 / 8.00 / 8.00 |"),
-            std::string::npos);
+  const MethodFigures ours = figures("ours dense", MapKind::kDense, 8);
+  MethodFigures nowhere = ours;
+  nowhere.scenes.clear();
+  EXPECT_NE(markdown({ours, nowhere}).find("| only | 8.00 / 8.00 / 8.00 | - |"), std::string::npos);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 Usage: cli_test.py path/to/pomona [unittest arguments]
 Every refusal must be one line on the error stream that starts with "pomona: error:" and names the culprit, with exit
-status 1 (bad input) or 2 (bad usage), and must leave no output behind.
+status 1 (bad input, bad values) or 2 (bad usage), and must leave no output behind.
 """
 
 import array
@@ -284,8 +284,8 @@ class BadViews(CommandTest):
         self.refuse("text.png", left=self.put("text.png", "this is no image\n" * 9))
 
     def test_sizes_and_types(self):
-        self.refuse("narrow.png: width is 95", right=self.put("narrow.png", png(95, 64, 2, 8, b"abc")))
-        self.refuse("low.png: height is 63", right=self.put("low.png", png(96, 63, 2, 8, b"abc")))
+        self.refuse("narrow.png: is 95x64", right=self.put("narrow.png", png(95, 64, 2, 8, b"abc")))
+        self.refuse("low.png: is 96x63", right=self.put("low.png", png(96, 63, 2, 8, b"abc")))
         self.refuse("alpha.png: has 4 channels", left=self.put("alpha.png", png(96, 64, 6, 8, b"abcd")))
         self.refuse("gray.png: has 1 channel", right=self.put("gray.png", gray(96, 64)))
         self.refuse("deep.png: has 3 channels of 16", right=self.put("deep.png", png(96, 64, 2, 16, b"abcdef")))
@@ -293,7 +293,7 @@ class BadViews(CommandTest):
 
     def test_mask(self):
         self.refuse("absent.png", "--mask", "absent.png")
-        self.refuse("mask.png: width is 10", "--mask", self.put("mask.png", gray(10, 64)))
+        self.refuse("mask.png: is 10x64", "--mask", self.put("mask.png", gray(10, 64)))
         self.refuse("bgr.png: has 3 channels", "--mask", self.put("bgr.png", png(96, 64, 2, 8, b"abc")))
 
 
@@ -303,7 +303,7 @@ class BadSideFiles(CommandTest):
         self.refuse("absent.txt", "--calib", "absent.txt")
         for text, part in (("", "no known calibration"), (cam0, "line 1: the file ends without 'baseline='"),
                            (cam0 + "baseline=-1\n", "line 2: baseline is '-1'"),
-                           (cam0 + "baseline=120\nwidth=1482\n", "width is 1482"),
+                           (cam0 + "baseline=120\nwidth=1482\n", "is for images of 1482x64"),
                            (cam0 + "baseline=120\nndisp=97\n", "ndisp of"),
                            ("\x00\xff\x01", "zero byte")):
             self.refuse(part, "--calib", self.put("calib.txt", text))
@@ -314,7 +314,7 @@ class BadSideFiles(CommandTest):
         self.refuse("gt.pfm: byte 0", "--gt", self.put("gt.pfm", b""))
         self.refuse("gt.pfm: byte 1000", "--gt", self.put("gt.pfm", whole[:1000]))
         self.refuse("gt.pfm: byte 14", "--gt", self.put("gt.pfm", "Pf\n2000000000 2000000000\n-1\n"))
-        self.refuse("gt.pfm: width is 1", "--gt", self.put("gt.pfm", b"Pf\n1 1\n-1\n\0\0\0\0"))
+        self.refuse("gt.pfm: is 1x1", "--gt", self.put("gt.pfm", b"Pf\n1 1\n-1\n\0\0\0\0"))
         self.refuse("gt.tif", "--gt", self.put("gt.tif", whole))
 
 
@@ -334,10 +334,10 @@ class BadOptions(CommandTest):
         self.refuse("threads is 5000", "--threads", "5000")
 
     def test_usage(self):
-        self.refuse("--mode", "--mode", "thick", status=2)
-        self.refuse("--max-disparity", "--max-disparity", "many", status=2)
-        self.refuse("--max-disparity", "--max-disparity", "nan", status=2)
-        self.refuse("--max-disparity", "--max-disparity", "99999999999", status=2)
+        self.refuse("--mode", "--mode", "thick")
+        self.refuse("--max-disparity", "--max-disparity", "many")
+        self.refuse("--max-disparity = nan; allowed: a number", "--max-disparity", "nan")
+        self.refuse("--max-disparity", "--max-disparity", "99999999999")
         self.refuse("--nonsense", "--nonsense", status=2)
         self.assert_refused(self.run_command(), "compute, eval, compare, calibrate, rig, rectify, check, render or info", 2)
         self.assert_refused(self.run_command("guess"), "guess", 2)
@@ -362,7 +362,7 @@ class BadOptions(CommandTest):
                                 (("orchard", "--distance", "0.1..1"), "nearest_m is 0.1; allowed: 0.3 to 10"),
                                 (("orchard", "--distance", "1..0.5"), "farthest_m is 0.5; allowed: 1 to 10"),
                                 (("orchard", "--fruits", "201"), "fruits is 201"),
-                                (("orchard", "--blur", "much"), "--blur is 'much'"),
+                                (("orchard", "--blur", "much"), "--blur"),
                                 (("orchard", "--size", "64x36", "--blur", "11"), "blur_px is 11; allowed: 0 to 10"),
                                 (("orchard", "--size", "64x36", "--bits", "12"), "bits is 12"),
                                 (("orchard", "--size", "8x8"), "width is 8; allowed: 16 to 8192"),
@@ -371,7 +371,7 @@ class BadOptions(CommandTest):
         self.put("file", "x")
         self.assert_refused(self.run_command("render", "boxes", "--size", "16x16", "-o", "file"), "file")
         self.assert_refused(self.run_command("render", "boxes", "--size", "16x16", "-o", "no/where"), "no/where")
-        self.assert_refused(self.run_command("render", "boxes", "--seed", "x", "-o", "scene"), "--seed", 2)
+        self.assert_refused(self.run_command("render", "boxes", "--seed", "x", "-o", "scene"), "--seed")
         self.assert_left_alone(["file"])
 
 

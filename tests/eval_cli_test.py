@@ -8,13 +8,14 @@ import json
 import math
 import os
 import pty
+import re
 import shutil
 import struct
 import subprocess
 import tempfile
 import unittest
 
-from cli_test import COMMAND, CommandTest, read_pfm, read_png_header
+from cli_test import COMMAND, CommandTest, png, read_pfm, read_png_header
 
 METHODS = "fast,balanced"
 SIZE = (96, 64)
@@ -88,6 +89,18 @@ class Eval(DatasetTest):
                 self.assertEqual(len(lines), 1 + 4 + 2)
                 self.assertEqual(lines[-2].split()[:2] + [lines[-2].split()[3]], ["mean", "fast", f"{mean:.2f}"])
 
+    def test_checks_can_be_chosen(self):
+        coverage = []
+        for extra in ((), ("--left-right", "-1", "--speckle", "0", "--median", "0")):
+            self.assert_accepted(self.eval("--json", "out.json", "--mode", "sparse", *extra, methods="ssd,fast"))
+            coverage.append([row["all"]["coverage"] for row in self.json()["scenes"]])
+        for checked, unchecked in zip(*coverage):
+            self.assertLess(checked, unchecked)
+        self.assertIn("--left-right -1, --speckle 0, --median 0", self.json()["facts"]["maps"])
+        result = self.eval("--median", "4", methods="ssd")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("median_size", result.stderr)
+
     def test_mask(self):
         every = self.eval("--json", "out.json").stdout.splitlines()[1].split()
         seen_by_both = self.eval("--mask", "nocc").stdout.splitlines()[1].split()
@@ -98,7 +111,31 @@ class Eval(DatasetTest):
         os.remove(self.scene_file("Boxes", "mask0nocc.png"))
         table = [line.split() for line in self.eval("--mask", "nocc").stdout.splitlines()]
         self.assertEqual(table[1][2], "-")
-        self.assertEqual(table[5][2], table[3][2])  # the mean over the scenes that have the figure
+        self.assertEqual(table[5][:3], ["mean", "of", "1"])  # over the scenes that have the figure
+        self.assertEqual(table[5][4], table[3][2])
+
+    def test_means_tell_how_many_scenes_are_behind_them(self):
+        os.remove(self.scene_file("Boxes", "mask0nocc.png"))
+        self.assert_accepted(self.eval("--json", "out.json"))
+        means = self.json()["means"]["fast"]
+        self.assertEqual((means["all"]["scenes"], means["nocc"]["scenes"]), (2, 1))
+
+    def test_subpixel_bins_are_those_of_the_maps(self):
+        self.assert_accepted(self.eval("--json", "out.json", "--submission", "maps", methods="fast"))
+        truth = read_pfm(self.scene_file("Boxes", "disp0GT.pfm"))[2]
+        found = self.pfm("maps/fast/trainingQ/Boxes/disp0fast.pfm")[2]
+        bins = [[] for _ in range(10)]
+        for d, t in zip(found, truth):
+            if math.isfinite(t) and abs(d - t) <= 1:
+                bins[min(9, int(10 * (t - math.floor(t))))].append(d - t)
+        written = self.json()["scenes"][0]["subpixel"]
+        self.assertEqual([count for count, _, _ in written], [len(errors) for errors in bins])
+        for errors, (count, bias, rms) in zip(bins, written):
+            if count:
+                self.assertAlmostEqual(bias, sum(errors) / count, places=6)
+                self.assertAlmostEqual(rms, math.sqrt(sum(e * e for e in errors) / count), places=6)
+            else:
+                self.assertIsNone(bias)
 
     def test_times_are_those_of_the_submission(self):
         self.assert_accepted(self.eval("--json", "out.json", "--submission", "maps"))
@@ -139,16 +176,64 @@ class Eval(DatasetTest):
             self.assertTrue(os.path.exists(self.path("maps", "balanced", path)), path)
         self.assertRegex(self.bytes_of("maps", "balanced", "low_res_two_view", "Planes.txt"), rb"^runtime [0-9.e-]+\n$")
 
+    def test_kitti_counts_outliers_of_the_filled_map_and_of_non_occluded_pixels(self):
+        kitti, truth = self.path("kitti", "training"), 8
+        for part in ("image_2", "image_3", "disp_occ_0", "disp_noc_0"):
+            os.makedirs(os.path.join(kitti, part))
+        shutil.copy(self.left, os.path.join(kitti, "image_2", "000000_10.png"))
+        shutil.copy(self.right, os.path.join(kitti, "image_3", "000000_10.png"))
+        with open(os.path.join(kitti, "disp_occ_0", "000000_10.png"), "wb") as file:
+            file.write(png(96, 64, 0, 16, struct.pack(">H", 256 * truth)))
+        for path in (os.path.join(kitti, "disp_noc_0", "000000_10.png"), "seen.pfm"):
+            self.assert_accepted(self.compute("-o", path, "--mode", "sparse"))
+        os.mkdir(self.path("listed"))
+        with open(self.path("listed", "manifest.csv"), "w", encoding="utf-8") as file:
+            file.write(f"name,left,right,max_disparity\npair,{self.left},{self.right},16\n")
+        result = self.run_command("eval", "kitti", "listed", "--methods", "fast", "--mode", "sparse", "--json",
+                                  "out.json", "--submission", "maps")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        width, height, found = self.pfm("maps/fast/pair/disp0fast_s.pfm")
+        seen = self.pfm("seen.pfm")[2]
+        wrong = []
+        for y in range(height):
+            row = found[y * width:(y + 1) * width]
+            self.assertTrue(any(map(math.isfinite, row)))
+            for x in range(width):
+                nearest = [next(filter(math.isfinite, side), math.inf) for side in (row[x::-1], row[x:])]
+                wrong.append(abs(min(nearest) - truth) > 3)
+        figures = self.json()["scenes"][0]
+        self.assertAlmostEqual(figures["all"]["D1-all"], 100 * sum(wrong) / len(wrong))
+        wrong_seen = [w for w, d in zip(wrong, seen) if math.isfinite(d)]
+        self.assertAlmostEqual(figures["nocc"]["D1-all"], 100 * sum(wrong_seen) / len(wrong_seen))
+        self.assertNotAlmostEqual(figures["nocc"]["D1-all"], figures["all"]["D1-all"])
+        self.assertGreater(figures["all"]["invalid"], 0)
+
     def test_scenes_without_truth_run_for_a_submission_only(self):
         os.remove(self.scene_file("Boxes", "disp0GT.pfm"))
         result = self.eval("--submission", "maps", "--json", "out.json")
-        self.assert_accepted(result)
+        said = "pomona: note: 1 scene has no ground truth: "
+        self.assertEqual((result.returncode, result.stderr), (0, said + "matched, not scored (Boxes)\n"))
         self.assertTrue(os.path.exists(self.path("maps/fast/trainingQ/Boxes/disp0fast.pfm")))
         row = self.json()["scenes"][0]
         self.assertEqual((row["scene"], set(row["all"])), ("Boxes", {"ms", "s/MP", "s/GD"}))
+        result = self.eval("--json", "out.json")
+        said += "passed over; --submission would match (Boxes)\n"
+        self.assertEqual((result.returncode, result.stderr), (0, said))
+        self.assertEqual([row["scene"] for row in self.json()["scenes"]], ["Planes"] * 2)
+        self.assertEqual(["pomona: note: " + remark + "\n" for remark in self.json()["remarks"]], [said])
+        os.remove(self.scene_file("Planes", "disp0GT.pfm"))
+        self.assert_refused(self.eval(), "none of the 2 scenes has ground truth; --submission would")
+
+    def test_a_range_that_is_too_small_for_the_truth_is_remarked(self):
+        calib = self.scene_file("Boxes", "calib.txt")
+        with open(calib, encoding="utf-8") as file:
+            text = file.read()
+        self.assertIn("ndisp=", text)
+        with open(calib, "w", encoding="utf-8") as file:
+            file.write(re.sub(r"ndisp=\d+", "ndisp=3", text))
         result = self.eval()
-        self.assertEqual(result.returncode, 1)
-        self.assertIn("Boxes: there is no ground truth", result.stderr)
+        self.assertEqual(result.returncode, 0)
+        self.assertRegex(result.stderr, r"^pomona: note: .*Boxes/calib.txt: ndisp is 3, .* truth reaches [0-9.]+\n$")
 
     def test_a_broken_scene_is_named_and_passed_over(self):
         breakages = {"im1.png": lambda path: os.remove(path),
@@ -172,6 +257,19 @@ class Eval(DatasetTest):
                 self.assertIn(leaf, self.json()["problems"][0])
                 self.assertIn(b"Planes", self.bytes_of("out.html"))
 
+    def test_views_that_no_method_takes_do_not_stop_the_others(self):
+        for color_type, channels in ((4, 2), (6, 4)):  # gray and alpha; colour and alpha
+            for leaf in ("im0.png", "im1.png"):
+                with open(self.scene_file("Boxes", leaf), "wb") as file:
+                    file.write(png(96, 64, color_type, 8, b"\x80" * channels))
+            said = "Boxes/im0.png: has 4 channels of 8 bits; allowed: 1 or 3 channels of 8 or 16 bits"
+            result = self.eval("--json", "out.json", "--report", "out.html")
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(said, result.stderr)
+            self.assertEqual([row["scene"] for row in self.json()["scenes"]], ["Planes"] * 2)
+            self.assertIn(b"Planes", self.bytes_of("out.html"))
+            self.assert_refused(self.run_command("compare", "data", "-o", "s.png", "--methods", METHODS), said)
+
     def test_a_map_that_does_not_fit_its_submission_is_named(self):
         kitti = self.path("testing")
         for part in ("image_2", "image_3"):
@@ -181,9 +279,15 @@ class Eval(DatasetTest):
         self.assertEqual(wide.returncode, 0, wide.stderr)
         shutil.copy(self.path("wide", "im0.png"), os.path.join(kitti, "image_2", "000000_10.png"))
         shutil.copy(self.path("wide", "im1.png"), os.path.join(kitti, "image_3", "000000_10.png"))
-        result = self.run_command("eval", "testing", "--methods", "fast", "--submission", "maps")
+        result = self.run_command("eval", "testing", "--methods", "fast", "--submission", "maps", "--json", "out.json")
         self.assertEqual(result.returncode, 1)
         self.assertIn("000000_10, fast: disparity at x", result.stderr)
+        self.assertEqual([row["scene"] for row in self.json()["scenes"]], ["000000_10"])  # measured all the same
+
+    def test_a_submission_folder_that_cannot_be_is_refused_before_any_work(self):
+        result = self.eval("--submission", self.truth + "/maps", "--json", "out.json")
+        self.assert_refused(result, "disp0GT.pfm/maps': Not a directory")
+        self.assertFalse(os.path.exists(self.path("out.json")))
 
     def test_bad_arguments(self):
         before = sorted(os.listdir(self.folder))
@@ -193,7 +297,8 @@ class Eval(DatasetTest):
                 ("'out.txt'", ("data", "--json", "out.txt"), 1), ("'manifest.csv'", ("data", "--csv", "manifest.csv"), 1),
                 ("no/out.html", ("data", "--report", "no/out.html"), 1), ("--threads is -1", ("data", "--threads", "-1"), 1),
                 ("which is no folder", ("data", "--submission", "data/trainingQ/Boxes/im0.png"), 1),
-                ("--mask", ("data", "--mask", "some"), 2), ("--mode", ("data", "--mode", "thick"), 2),
+                ("--mask", ("data", "--mask", "some"), 1), ("--mode", ("data", "--mode", "thick"), 1),
+                ("--json: is empty", ("data", "--json", ""), 1), ("--submission: is empty", ("data", "--submission", ""), 1),
                 ("folders", (), 2)):
             if ".ssh-like" in arguments:
                 os.mkdir(self.path(".ssh-like"))

@@ -162,10 +162,18 @@ TEST(KittiErrors, AnOutlierIsOffByMoreThanThreePixelsAndFivePercent) {
   EXPECT_DOUBLE_EQ(e.all().d1Percent(), 50);
   EXPECT_DOUBLE_EQ(e.all().outlierPercent(), 40);
 
+  const KittiErrors seen_by_both =
+      kittiErrors(found, truth, bytes({0, 0, 0, 7, 0, 1, 1}), bytes({255, 128, 255, 255, 255, 128, 255}));
+  EXPECT_EQ(seen_by_both.background.known, 3);
+  EXPECT_EQ(seen_by_both.background.outliers, 0);
+  EXPECT_EQ(seen_by_both.foreground.known, 1);
+  EXPECT_EQ(seen_by_both.all().d1Percent(), 25);
+
   const KittiErrors without_objects = kittiErrors(found, truth);
   EXPECT_EQ(without_objects.background.known, 6);
   EXPECT_TRUE(std::isnan(without_objects.foreground.d1Percent()));
   EXPECT_THROW(kittiErrors(found, truth, bytes({0})), std::invalid_argument);
+  EXPECT_THROW(kittiErrors(found, truth, {}, bytes({0})), std::invalid_argument);
 }
 
 std::vector<float> filled(int rows, std::vector<float> values) {
@@ -193,6 +201,8 @@ TEST(Summary, TimesAndMeans) {
   EXPECT_THROW(weightedMean(values, std::vector<double>{1, 2}), std::invalid_argument);
   EXPECT_EQ(middleburyWeight("Shelves"), 0.5);
   EXPECT_EQ(middleburyWeight("Teddy"), 1);
+  EXPECT_EQ(middleburyWeight("MiddEval3/trainingQ/Vintage"), 0.5);
+  EXPECT_EQ(middleburyWeight("Vintage/Teddy"), 1);
 }
 
 TEST(CoverageCurve, FollowsTheConfidence) {

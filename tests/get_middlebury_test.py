@@ -147,6 +147,28 @@ class GetMiddlebury(unittest.TestCase):
         self.assertIn(f"{DATA}: 'MiddEval3/trainingQ/Art/im0.png' in it is damaged", result.stderr)
         self.assertTrue((self.out / "MiddEval3/trainingQ/Art/disp0GT.pfm").exists())  # the other one came
 
+    def test_an_archive_that_was_damaged_since_is_fetched_again(self):
+        self.assert_complete(self.get())
+        kept = self.out / "zip" / DATA
+        content = bytearray(kept.read_bytes())
+        content[1000] ^= 1
+        for damaged in (bytes(content), content[:1000], b""):
+            kept.write_bytes(damaged)
+            (self.out / "MiddEval3/trainingQ/Art/im0.png").unlink()
+            self.server.requests.clear()
+            result = self.get()
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertIn(f"{kept}: ", result.stderr)
+            self.assertIn("fetching it again", result.stderr)
+            self.assertEqual(self.server.requests, [(DATA, 0)])
+            self.assertEqual((self.out / "MiddEval3/trainingQ/Art/im0.png").read_bytes(), self.noise)
+
+    def test_what_cannot_be_unpacked_is_named_by_its_file(self):
+        (self.out / "MiddEval3").write_bytes(b"in the way")
+        result = self.get()
+        self.assertEqual(result.returncode, 1)
+        self.assertIn(f"get_middlebury: {self.out / 'zip' / DATA}: ", result.stderr)
+
     def test_paths_that_lead_out_are_refused(self):
         self.server.files[DATA] = archive({"../outside": b"x"})
         self.assertIn("would be written outside", self.get().stderr)

@@ -79,7 +79,20 @@ class Report(unittest.TestCase):
         self.assertIn("spheres/im0.png", self.browser.run(text_of("#problems li"))[0])
         self.assertIn("instruction set", self.browser.run(text_of("#facts dt")))
         self.assertEqual(self.browser.run("document.querySelectorAll('#scatter circle').length"), len(METHODS))
-        self.assertGreater(self.browser.run("document.querySelectorAll('#curves path').length"), 1)
+        self.assertEqual(self.browser.run("document.getElementById('summary').textContent"), "2 scenes, 3 methods")
+        self.assertEqual(self.column("#means", len(self.browser.run(text_of("#means thead th")))), [2] * len(METHODS))
+        for chart in ("curves", "subpixel"):
+            for kind in ("", ".dotted"):
+                paths = self.browser.run(f"document.querySelectorAll('#{chart} path{kind}').length")
+                self.assertEqual(paths, len(METHODS) * (1 if kind else 2), (chart, kind))
+
+    def test_mean_curves_end_where_the_first_scene_does_and_no_line_flattens_the_others(self):
+        scene = "{methods: {m: {curves: {all: %s}}}}"
+        scenes = "[" + scene % "[[40, 1, 0], [80, 3, 1]]" + "," + scene % "[[50, 5, 2], [100, 5, 4]]" + "]"
+        solid, dotted = self.browser.run(f"(shown.region = 'all', meanCurve('m', {scenes}))")
+        self.assertEqual((solid[0], solid[-1], dotted[-1]), ([2, 3], [80, 4], [80, 2.1]))
+        self.assertEqual(self.browser.run("reachOf([[[0, 1]], [[0, 2]], [[0, 100]]])"), 4 * 1.08)
+        self.assertEqual(self.browser.run("reachOf([[[0, 1], [1, -3]], [[0, 2]]])"), 3 * 1.08)
 
     def test_needs_nothing_else(self):
         with open(self.path("report.html"), encoding="utf-8") as file:
@@ -101,8 +114,10 @@ class Report(unittest.TestCase):
 
     def test_regions_figures_and_columns_can_be_chosen(self):
         every = self.column("#means", 2)
+        self.browser.click("#means thead th:nth-child(2) button")
         self.browser.click("[data-region=nocc]")
-        self.assertNotEqual(self.column("#means", 2), every)
+        self.assertNotEqual(self.column("#means", 2), sorted(every))
+        self.assertEqual(self.column("#means", 2), sorted(self.column("#means", 2)))  # the order stays
         columns = len(self.browser.run(text_of("#means thead th")))
         self.browser.click("#every-column")
         self.assertGreater(len(self.browser.run(text_of("#means thead th"))), columns + 5)

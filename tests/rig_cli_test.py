@@ -128,11 +128,12 @@ class RigTest(unittest.TestCase):
         self.assertIn("verdict   aligned", self.accept("check", "scene/im0.png", "scene/im1.png"))
 
     def test_refusals(self):
-        self.refuse("no file matches 'left*.jpg'", "calibrate", "left*.jpg", "right*.jpg", "--square", "2cm", "-o", "r.yml")
+        self.refuse("no file matches 'left*.jpg'", "calibrate", "left*.jpg", "right*.jpg", "--square", "2cm", "-o",
+                    "r.yml")
         self.refuse("--square is '25'; allowed", *self.calibrate()[:3], "--square", "25", "-o", "r.yml")
         self.refuse("--board is '9'", *self.calibrate("--board", "9", "-o", "r.yml"))
-        self.refuse("don't pair up", "calibrate", self.board("left*.png"), self.board("right0*.png"), "--square", "25mm",
-                    "-o", "r.yml")
+        self.refuse("don't pair up", "calibrate", self.board("left*.png"), self.board("right0*.png"), "--square",
+                    "25mm", "-o", "r.yml")
         self.refuse("views can be used", "calibrate", self.board("left01.png"), self.board("right01.png"), "--square",
                     "25mm", "--board", "8x5", "-o", "r.yml")
         self.refuse("there is no folder", *self.calibrate("-o", "no/r.yml"))
@@ -140,12 +141,12 @@ class RigTest(unittest.TestCase):
         self.refuse("baseline is 0.00011", "rig", "show", self.rig, "--unit", "mm")
         self.refuse("exchanged", "rig", "show", self.rig, "--cameras", "1", "0")
         self.refuse("--rig is missing", "render", "chessboard", "-o", "x")
-        self.refuse("allowed: the rig's 640x360", "rectify", self.rectified_size(), self.rectified_size(), "--rig", self.rig,
-                    "-o", "x")
-        self.refuse("--calib excludes --rig", "compute", self.board("left01.png"), self.board("right01.png"), "--rig", self.rig,
-                    "--calib", self.rig, "-o", "out.pfm", status=2)
+        small = self.small_picture()
+        self.refuse("allowed: the rig's 640x360", "rectify", small, small, "--rig", self.rig, "-o", "x")
+        self.refuse("--calib excludes --rig", "compute", self.board("left01.png"), self.board("right01.png"), "--rig",
+                    self.rig, "--calib", self.rig, "-o", "out.pfm", status=2)
 
-    def rectified_size(self):
+    def small_picture(self):
         scene = os.path.join(self.pictures, "scene")
         if not os.path.isdir(scene):
             run("render", "planes", "--size", "96x64", "-o", scene, folder=self.pictures)

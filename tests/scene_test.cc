@@ -63,6 +63,35 @@ TEST_F(SceneFolder, RefusesWhatDoesNotFitTogether) {
   expectContains(reading(), "im1.png: cannot be read");
 }
 
+TEST_F(SceneFolder, RefusesTruthThatIsNone) {
+  cv::Mat truth(24, 32, CV_32F, cv::Scalar(1));
+  for (const float absurd : {129.0f, -129.0f, 3e38f}) {
+    truth.at<float>(3, 5) = absurd;
+    writePfm(folder_ / "disp0GT.pfm", truth);
+    expectContains(reading(), "disp0GT.pfm: disparity at x 5, y 3 is ");
+  }
+  truth.at<float>(3, 5) = 128;
+  writePfm(folder_ / "disp0GT.pfm", truth);
+  EXPECT_EQ(readScene(folder_ / ".").ground_truth.at<float>(3, 5), 128);
+  truth.setTo(NAN);
+  writePfm(folder_ / "disp0GT.pfm", truth);
+  expectContains(reading(), "disp0GT.pfm: holds no known disparity");
+  SceneFiles files = middleburyFiles(folder_ / ".");
+  files.layout = SceneLayout::kMiddlebury2;
+  files.ground_truth = put(folder_ / "disp2.png", encodeImage(cv::Mat(24, 32, CV_8U, cv::Scalar(0))));
+  expectContains(messageOf([&] { readScene(files); }), "disp2.png: holds no known disparity");
+}
+
+TEST_F(SceneFolder, RefusesTheCalibrationOfAnotherSize) {
+  StereoCalibration calibration = pair_.calibration;
+  calibration.height = 25;
+  put(folder_ / "calib.txt", encodeMiddleburyCalibration(calibration));
+  expectContains(reading(), "calib.txt: is for images of 32x25; the left image is 32x24");
+  calibration.width = calibration.height = 0;  // not stated
+  put(folder_ / "calib.txt", encodeMiddleburyCalibration(calibration));
+  EXPECT_TRUE(readScene(folder_ / ".").calibration);
+}
+
 TEST(DisparitiesToReach, IsTheLargestPlusFourInSixteens) {
   cv::Mat truth(2, 100, CV_32F, cv::Scalar(3));
   EXPECT_EQ(disparitiesToReach(truth), 16);
@@ -72,6 +101,8 @@ TEST(DisparitiesToReach, IsTheLargestPlusFourInSixteens) {
   truth.at<float>(0, 0) = NAN;
   EXPECT_EQ(disparitiesToReach(truth), 32);
   truth.at<float>(1, 7) = 98;
+  EXPECT_EQ(disparitiesToReach(truth), 100);
+  truth.at<float>(1, 7) = 3e38f;
   EXPECT_EQ(disparitiesToReach(truth), 100);
   truth.setTo(NAN);
   EXPECT_EQ(disparitiesToReach(truth), 0);

@@ -84,6 +84,39 @@ std::string describe(const Setup& s, Isa isa, int threads) {
          std::to_string(threads);
 }
 
+/// What the sink of an Aggregator is given, of the whole image.
+struct WinnerMaps {
+  Image<std::uint16_t> index, best, below, above, second, right_index, right_best, right_below, right_above;
+
+  WinnerMaps(int width, int height) {
+    for (Image<std::uint16_t>* map :
+         {&index, &best, &below, &above, &second, &right_index, &right_best, &right_below, &right_above})
+      map->resize(width, height);
+  }
+  void take(int y, const WinnerRow& w) {
+    const auto copy = [&](const std::uint16_t* from, Image<std::uint16_t>& to) {
+      std::copy_n(from, to.width(), to.row(y));
+    };
+    copy(w.index, index), copy(w.best, best), copy(w.below, below), copy(w.above, above);
+    copy(w.second, second), copy(w.right_index, right_index), copy(w.right_best, right_best);
+    copy(w.right_below, right_below), copy(w.right_above, right_above);
+  }
+};
+
+/// Both memory modes, which must agree with the textbook and so with each other.
+template <typename Check>
+void aggregate(const MatchingCostRows& cost, const ColorSteps& steps, const AggregationOptions& options,
+               const SgmKernels& kernels, int threads, Check&& check) {
+  for (MemoryMode memory : {MemoryMode::kSpeed, MemoryMode::kLow}) {
+    Aggregator aggregator;
+    WinnerMaps winners(cost.width(), cost.height());
+    aggregator.run(
+        cost, steps, options, memory, kernels, [&](int y, const WinnerRow& row) { winners.take(y, row); },
+        threads);
+    check(winners, memory == MemoryMode::kLow ? ", low memory" : "");
+  }
+}
+
 void expectEqual(const WinnerMaps& got, const reference::Match& want, const std::string& what) {
   const int width = got.index.width();
   for (int y = 0; y < got.index.height(); ++y)
@@ -138,10 +171,9 @@ void compareWithTextbook(const Setup& s) {
       MatchingCostRows cost;
       cost.prepareCensus({&left, {}, {}}, {&right, {}, {}}, maximumCost(s.cost),
                          makeRange(s.min_disparity, s.disparities, kernels), kernels, threads);
-      Aggregator aggregator;
-      WinnerMaps winners;
-      aggregator.run(cost, steps, s.aggregation, kernels, winners, threads);
-      expectEqual(winners, want, describe(s, isa, threads));
+      aggregate(cost, steps, s.aggregation, kernels, threads, [&](const WinnerMaps& got, const char* memory) {
+        expectEqual(got, want, describe(s, isa, threads) + memory);
+      });
       if (testing::Test::HasFatalFailure()) return;
     }
 }
@@ -225,13 +257,12 @@ TEST(Sgm, BlendedCostWithSupportEqualsTextbook) {
             cost.prepareBlended({&codes[0], sobel[0].view(), gray[0]}, {&codes[1], sobel[1].view(), gray[1]},
                                 45, makeRange(from, disparities, kernels), kernels, threads);
             cost.prepareSupport(steps, step, threads);
-            Aggregator aggregator;
-            WinnerMaps winners;
-            aggregator.run(cost, steps, kSoft, kernels, winners, threads);
-            expectEqual(winners, want,
-                        "blended, " + std::string(name(isa)) + " support " + std::to_string(step) +
-                            " content " + std::to_string(static_cast<int>(content)) + " width " +
-                            std::to_string(width));
+            aggregate(cost, steps, kSoft, kernels, threads, [&](const WinnerMaps& got, const char* memory) {
+              expectEqual(got, want,
+                          "blended, " + std::string(name(isa)) + " support " + std::to_string(step) +
+                              " content " + std::to_string(static_cast<int>(content)) + " width " +
+                              std::to_string(width) + memory);
+            });
             if (testing::Test::HasFatalFailure()) return;
           }
       }
@@ -260,10 +291,9 @@ TEST(Sgm, TableCostEqualsTextbook) {
     cost.prepareTable({nullptr, {}, pair.left.view()}, {nullptr, {}, pair.right.view()},
                       std::span<const std::uint8_t, 65536>(table), 127, makeRange(-3, 37, kernels), kernels,
                       1);
-    Aggregator aggregator;
-    WinnerMaps winners;
-    aggregator.run(cost, steps, o, kernels, winners, 2);
-    expectEqual(winners, want, "table cost, isa " + std::string(name(isa)));
+    aggregate(cost, steps, o, kernels, 2, [&](const WinnerMaps& got, const char* memory) {
+      expectEqual(got, want, "table cost, isa " + std::string(name(isa)) + memory);
+    });
   }
 }
 
@@ -305,10 +335,9 @@ TEST(Sgm, PriorAddsItsRampToTheCost) {
     cost.prepareCensus({&left, {}, {}}, {&right, {}, {}}, 24, makeRange(from, disparities, kernels), kernels,
                        2);
     cost.preparePrior(map.view(), weight, reach, 2);
-    Aggregator aggregator;
-    WinnerMaps winners;
-    aggregator.run(cost, steps, kSoft, kernels, winners, 2);
-    expectEqual(winners, want, "prior, isa " + std::string(name(isa)));
+    aggregate(cost, steps, kSoft, kernels, 2, [&](const WinnerMaps& got, const char* memory) {
+      expectEqual(got, want, "prior, isa " + std::string(name(isa)) + memory);
+    });
   }
 }
 
@@ -339,7 +368,8 @@ TEST(Sgm, MatcherRefinesAndMarksAmbiguousPixels) {
         EXPECT_NEAR(maps.disparity.row(y)[x], expected, 1e-5);
         const bool unique = best <= 0.8 * want.second[i] + 1e-9;
         EXPECT_EQ(maps.state.row(y)[x] == static_cast<std::uint8_t>(PixelState::kMeasured), unique);
-        EXPECT_NEAR(maps.margin.row(y)[x], (want.second[i] - best) / 8.0, 1e-4);
+        EXPECT_EQ(maps.margin.row(y)[x], want.second[i] - best);
+        EXPECT_EQ(maps.curvature.row(y)[x], std::max(0.0, want.below[i] + want.above[i] - 2 * best));
         ambiguous += !unique;
         if (want.right_index[i] < 0) {
           EXPECT_TRUE(std::isnan(maps.right_disparity.row(y)[x]));

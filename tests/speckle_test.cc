@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "core/cpu.h"
 #include "filters_testing.h"
 
 namespace pomona {
@@ -17,17 +18,19 @@ void expectTwin(const Map<float>& map, int min_size, float max_step, SpeckleScra
   Map<float> expected = map;
   Map<std::uint8_t> expected_state = state;
   reference::removeSpeckles(expected, expected_state, min_size, max_step);
-  for (int threads : testing::kThreadCounts)
-    for (int margin : {0, 3}) {
-      SCOPED_TRACE(::testing::Message() << map.width << 'x' << map.height << " size " << min_size << " step "
-                                        << max_step << " threads " << threads << " margin " << margin);
-      Framed<float> d(map, margin, 5.0f);
-      Framed<std::uint8_t> s(state, margin, 99);
-      removeSpeckles(d.view(), s.view(), min_size, max_step, scratch, threads);
-      ASSERT_TRUE(sameBits(d.map(), expected));
-      ASSERT_TRUE(sameBits(s.map(), expected_state));
-      ASSERT_TRUE(d.frameIsIntact() && s.frameIsIntact());
-    }
+  for (Isa isa : usableIsas())
+    for (int threads : testing::kThreadCounts)
+      for (int margin : {0, 3}) {
+        SCOPED_TRACE(::testing::Message()
+                     << map.width << 'x' << map.height << " size " << min_size << " step " << max_step
+                     << " isa " << name(isa) << " threads " << threads << " margin " << margin);
+        Framed<float> d(map, margin, 5.0f);
+        Framed<std::uint8_t> s(state, margin, 99);
+        removeSpeckles(d.view(), s.view(), min_size, max_step, scratch, filterKernels(isa), threads);
+        ASSERT_TRUE(sameBits(d.map(), expected));
+        ASSERT_TRUE(sameBits(s.map(), expected_state));
+        ASSERT_TRUE(d.frameIsIntact() && s.frameIsIntact());
+      }
 }
 
 TEST(RemoveSpeckles, EqualsItsTwinOnRandomMaps) {
@@ -65,7 +68,7 @@ TEST(RemoveSpeckles, FollowsWindingComponents) {
     expectTwin(comb, comb_size + extra, 1, scratch);
     Framed<float> d(serpentine, 0, 0);
     Framed<std::uint8_t> s(testing::stateOf(serpentine), 0, 0);
-    removeSpeckles(d.view(), s.view(), serpentine_size + extra, 1, scratch, 2);
+    removeSpeckles(d.view(), s.view(), serpentine_size + extra, 1, scratch, filterKernels(chooseIsa({})), 2);
     EXPECT_EQ(std::isnan(d.view().at(50, 50)), extra == 1);
   }
 }

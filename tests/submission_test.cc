@@ -35,7 +35,7 @@ class Submission : public testing::Test {
     SceneFiles files;
     files.layout = layout;
     files.name = name;
-    files.split = split;
+    files.folder = std::string("/data/") + split;
     return files;
   }
   cv::Mat disparity_;
@@ -50,6 +50,8 @@ TEST_F(Submission, Middlebury) {
 
   EXPECT_TRUE(filesOf(scene(SceneLayout::kMiddlebury3, "trainingH/Art", "trainingH"))
                   .contains("trainingH/Art/disp0quality.pfm"));
+  EXPECT_TRUE(filesOf(scene(SceneLayout::kMiddlebury3, "old/trainingH/Art", "old/trainingH"))
+                  .contains("old/trainingH/Art/disp0quality.pfm"));
   const auto sparse = filesOf(scene(SceneLayout::kMiddlebury2, "cones", "middlebury"), OutputMode::kSparse);
   expectDisparity(sparse, "cones/disp0quality_s.pfm");
   EXPECT_TRUE(sparse.contains("cones/timequality.txt"));
@@ -62,6 +64,8 @@ TEST_F(Submission, Kitti) {
   expectDisparity(filesOf(scene(SceneLayout::kKitti2012, "000010_10", "testing")), "000010_10.png");
   expectDisparity(filesOf(scene(SceneLayout::kKitti2015, "testing/000010_10", "testing")),
                   "testing/disp_0/000010_10.png");
+  expectDisparity(filesOf(scene(SceneLayout::kKitti2015, "2015/testing/000010_10", "2015/testing")),
+                  "2015/testing/disp_0/000010_10.png");
   disparity_.at<float>(0, 0) = 300;
   EXPECT_THROW(filesOf(scene(SceneLayout::kKitti2015, "000010_10", "testing")), std::invalid_argument);
 }

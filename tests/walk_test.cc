@@ -58,7 +58,7 @@ TEST_F(Tree, FindsMiddleburyScenesAtAnyDepthInOrder) {
   file("a/notes.txt", "nothing");
   const auto scenes = found();
   EXPECT_EQ(namesOf(scenes), (Names{"Zebra", "Art", "Piano"}));
-  EXPECT_EQ(scenes[1].split, "trainingQ");
+  EXPECT_EQ(scenes[1].split(), "trainingQ");
   EXPECT_EQ(scenes[1].layout, SceneLayout::kMiddlebury3);
   const Scene scene = readScene(scenes[1]);
   EXPECT_EQ(cv::norm(scene.left, pair_.left.image, cv::NORM_INF), 0);
@@ -66,14 +66,34 @@ TEST_F(Tree, FindsMiddleburyScenesAtAnyDepthInOrder) {
   EXPECT_EQ(namesOf(found("a/Zebra")), Names{"Zebra"});  // a scene can be named itself, too
 }
 
-TEST_F(Tree, NamesAreUnique) {
-  middleburyScene("trainingQ/Art");
-  middleburyScene("trainingH/Art");
-  middleburyScene("trainingH/Piano");
-  EXPECT_EQ(namesOf(found()), (Names{"trainingH/Art", "Piano", "trainingQ/Art"}));
-  middleburyScene("other/trainingQ/Art");
-  const auto names = namesOf(found());
-  EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), 4u);
+TEST_F(Tree, NamesOfTwoFoldersAreToldApartByAsFewFoldersAsItTakes) {
+  middleburyScene("v3/trainingQ/Art");
+  middleburyScene("v3/trainingH/Art");
+  middleburyScene("v3/trainingH/Piano");
+  EXPECT_EQ(namesOf(found()), (Names{"trainingH/Art", "trainingH/Piano", "trainingQ/Art"}));
+  EXPECT_EQ(namesOf(found("v3/trainingH")), (Names{"Art", "Piano"}));
+  for (const char* view : {"2012/training/image_0/", "2012/training/image_1/", "2015/training/image_2/",
+                           "2015/training/image_3/"}) {
+    image(view + std::string("000000_10.png"), gray(1));
+    if (view[3] == '5') image(view + std::string("000001_10.png"), gray(1));
+  }
+  EXPECT_EQ(namesOf(found()),
+            (Names{"2012/training/000000_10", "2015/training/000000_10", "2015/training/000001_10",
+                   "trainingH/Art", "trainingH/Piano", "trainingQ/Art"}));
+}
+
+TEST_F(Tree, ANameThatAManifestUsesAgainGetsANumber) {
+  const std::string pair = "im0.png,im1.png\n";
+  file("a/manifest.csv", "name,left,right\nx," + pair + "y," + pair + "x," + pair + "x-2," + pair);
+  file("b/manifest.csv", "left,right\n1/im0.png,1/im1.png\n2/im0.png,2/im1.png\n");
+  EXPECT_EQ(namesOf(found()), (Names{"x", "y", "x-2", "x-2-2", "im0", "im0-2"}));
+  EXPECT_EQ(namesOf(findScenes({root_ / "a"})), (Names{"x", "y", "x-2", "x-2-2"}));
+}
+
+TEST_F(Tree, NamesHoldNoControlCharacters) {
+  middleburyScene("v3/a\x1b[2Jb\n");
+  middleburyScene("v3/a\x1b[2Jb\t");
+  EXPECT_EQ(namesOf(found()), (Names{"a?[2Jb?", "a?[2Jb?-2"}));
 }
 
 TEST_F(Tree, ALoopOfLinksEnds) {
@@ -130,6 +150,22 @@ TEST_F(Tree, EightBitTruthIsScaledAsItsSetSaysItIs) {
   }
 }
 
+TEST_F(Tree, EightBitTruthIsScaledAlikeFromWithinItsFolder) {
+  image("venus/im2.png", gray(9));
+  image("venus/im6.png", gray(9));
+  image("venus/disp2.png", gray(48));
+  fs::create_directory(root_ / "venus/below");
+  const fs::path here = fs::current_path();
+  for (const auto& [folder, root] : {std::pair{"venus", "."}, std::pair{"venus/below", ".."}}) {
+    fs::current_path(root_ / folder);
+    const auto scenes = findScenes({root});
+    const Scene scene = readScene(scenes.front());
+    fs::current_path(here);
+    EXPECT_EQ(namesOf(scenes), Names{"venus"});
+    EXPECT_FLOAT_EQ(scene.ground_truth.at<float>(1, 1), 48 / 8.0f) << root;
+  }
+}
+
 TEST_F(Tree, KittiFrames) {
   cv::Mat truth(24, 32, CV_32F, cv::Scalar(7.5)), both = truth.clone();
   truth.at<float>(0, 0) = both.at<float>(0, 0) = both.at<float>(0, 1) = NAN;
@@ -150,7 +186,7 @@ TEST_F(Tree, KittiFrames) {
   const auto scenes = found();
   ASSERT_EQ(namesOf(scenes), (Names{"000003_10", "000000_10", "000007_10"}));
   EXPECT_EQ(scenes[0].layout, SceneLayout::kKitti2012);
-  EXPECT_EQ(scenes[0].split, "testing");
+  EXPECT_EQ(scenes[0].split(), "testing");
   const Scene test = readScene(scenes[0]);
   EXPECT_TRUE(test.ground_truth.empty());
   EXPECT_EQ(test.left.at<std::uint8_t>(0, 0), 1);  // colour comes first where both are there
@@ -216,6 +252,17 @@ TEST_F(Tree, AManifestWithoutColumnNamesIsAProblemOfItsFolderOnly) {
   ASSERT_EQ(namesOf(scenes), (Names{"bad", "good", "odd"}));
   expectContains(reading(scenes[0]), "bad/manifest.csv: line 1: expected the names of the columns");
   expectContains(reading(scenes[2]), "odd/manifest.csv: line 1: unknown column 'depth'");
+}
+
+TEST_F(Tree, ManifestsAsSpreadsheetsWriteThem) {
+  file("bom/manifest.csv", "\xef\xbb\xbfleft,right\n1/im0.png,1/im1.png\n");
+  file("twice/manifest.csv", "left,right,gt,left\n");
+  file("open/manifest.csv", "left,right\na.png,b.png\n\"c.png,d.png\ne.png,f.png\n");
+  const auto scenes = found();
+  ASSERT_EQ(namesOf(scenes), (Names{"im0", "open", "twice"}));
+  EXPECT_EQ(scenes[0].left, (root_ / "./bom/1/im0.png"));
+  expectContains(reading(scenes[1]), "open/manifest.csv: line 3: a quote that begins here never ends");
+  expectContains(reading(scenes[2]), "twice/manifest.csv: line 1: a second column 'left'");
 }
 
 TEST_F(Tree, NothingToWalk) {

@@ -6,13 +6,14 @@ const record = JSON.parse(document.getElementById("record").textContent);
 const COLORS = ["#2f6fed", "#e4572e", "#17a398", "#a05195", "#e09f1f", "#6a994e", "#d1495b", "#3d9bd1", "#8d6a9f",
                 "#b07d2b", "#5b6ee1", "#7d8780", "#f2739b"];
 const REGIONS = {all: "all", nocc: "non-occluded"};
-const shown = {region: record.region, metric: "bad-2", everyColumn: false};
+const shown = {region: record.region, metric: "bad-2", everyColumn: false, orders: {}};
 
 const byId = (id) => document.getElementById(id);
 const columnIndex = (name) => record.columns.findIndex((column) => column.name === name);
 const colorOf = (method) => COLORS[record.methods.indexOf(method) % COLORS.length];
 const isPeer = (method) => record.peers.includes(method);
 const biggerIsBetter = (column) => column.name === "coverage";
+const counted = (count, thing) => `${count} ${thing}${count === 1 ? "" : "s"}`;
 const text = (value, column) => value == null ? "–" : value.toFixed(column.decimals);
 
 /** An element with attributes (functions become listeners) and children. */
@@ -32,21 +33,25 @@ const dot = (method) => make("span", {class: "dot", style: `background:${colorOf
 
 /**
  * `columns`: {name, description}; `rows`: {head, label, cells: [{value, text}], last}. Cells sort by value; unknown
- * ones and rows that are `last` stay below.
+ * ones and rows that are `last` stay below. The order is remembered under `key` for the next table of that kind.
  */
-function sortableTable(first, columns, rows, best) {
-  const body = make("tbody");
+function sortableTable(key, first, columns, rows, best) {
+  const body = make("tbody"), names = [first, ...columns].map((column) => column.name);
   const heads = [first, ...columns].map((column, i) => make("th", {scope: "col", title: column.description},
-      make("button", {click: () => sort(i)}, column.name)));
-  const order = {column: -1, sign: 1};
+      make("button", {click: () => choose(names[i])}, column.name)));
+  const order = shown.orders[key] ??= {column: null, sign: 1};
   const keyOf = (row, i) => i === 0 ? row.label : row.cells[i - 1].value;
-  function sort(i) {
-    order.sign = order.column === i ? -order.sign : 1;
-    order.column = i;
+  function choose(name) {
+    order.sign = order.column === name ? -order.sign : 1;
+    order.column = name;
+    sort();
+  }
+  function sort() {
+    const i = names.indexOf(order.column);
     heads.forEach((head, k) => k === i
         ? head.setAttribute("aria-sort", order.sign > 0 ? "ascending" : "descending") : head.removeAttribute("aria-sort"));
     const compare = (a, b) => typeof a === "string" ? a.localeCompare(b) : a - b;
-    rows.sort((a, b) => {
+    if (i >= 0) rows.sort((a, b) => {
       const [p, q] = [keyOf(a, i), keyOf(b, i)];
       if (!!a.last !== !!b.last) return a.last ? 1 : -1;
       if (p == null || q == null) return (p == null) - (q == null);
@@ -57,7 +62,7 @@ function sortableTable(first, columns, rows, best) {
   const fill = () => body.replaceChildren(...rows.map((row) => make("tr", {class: row.last && "mean"},
       make("th", {scope: "row"}, row.head()),
       ...row.cells.map((cell) => make("td", {class: best(row, cell) && "best"}, cell.text)))));
-  fill();
+  sort();
   return make("table", {}, make("thead", {}, make("tr", {}, ...heads)), body);
 }
 
@@ -67,8 +72,8 @@ function bestOf(values, column) {
   return low < high ? (biggerIsBetter(column) ? high : low) : null;
 }
 
-/** Methods down, figures across; `figuresOf(method)` gives a value per column. */
-function methodTable(figuresOf) {
+/** Methods down, figures across; `figuresOf(method)` gives a value per column, `countOf(method)` a number of scenes. */
+function methodTable(key, figuresOf, countOf) {
   const used = record.columns.map((column, i) => i).filter((i) =>
       (shown.everyColumn || record.columns[i].main) && record.methods.some((m) => figuresOf(m)?.[i] != null));
   const bests = used.map((i) => bestOf(record.methods.map((m) => figuresOf(m)?.[i]), record.columns[i]));
@@ -77,7 +82,12 @@ function methodTable(figuresOf) {
     head: () => make("span", {}, dot(method), method),
     cells: used.map((i, k) => ({value: figuresOf(method)[i], k, text: text(figuresOf(method)[i], record.columns[i])})),
   }));
-  return sortableTable({name: "method"}, used.map((i) => record.columns[i]), rows,
+  const columns = used.map((i) => record.columns[i]);
+  if (countOf) {
+    columns.push({name: "scenes", description: "how many are behind the errors' means"});
+    for (const row of rows) row.cells.push({value: countOf(row.label), text: countOf(row.label)});
+  }
+  return sortableTable(key, {name: "method"}, columns, rows,
                        (row, cell) => cell.value != null && cell.value === bests[cell.k]);
 }
 
@@ -94,7 +104,7 @@ function sceneTable() {
   }));
   rows.push({label: "mean", last: true, head: () => "mean", cells: cellsOf((m) => record.means[m][shown.region])});
   for (const row of rows) row.best = bestOf(row.cells.map((cell) => cell.value), column);
-  return sortableTable({name: "scene"}, record.methods.map((name) => ({name})), rows,
+  return sortableTable("scenes", {name: "scene"}, record.methods.map((name) => ({name})), rows,
                        (row, cell) => cell.value != null && cell.value === row.best);
 }
 
@@ -145,13 +155,16 @@ function scatter(width) {
       {low, high, ticks: logTicksOf(low, high), text: (t) => `${+(10 ** t).toPrecision(2)}`, label: "s/MP, log scale"},
       {low: 0, high: top, ticks: ticksOf(0, top, 5), text: (t) => t, label: `${column.name}, mean`});
   const taken = points.map((p) => ({x: toX(p.x) - 6, y: toY(p.y) - 6, w: 12, h: 12}));
-  const meets = (a) => taken.some((b) => a.x < b.x + b.w && b.x < a.x + a.w && a.y < b.y + b.h && b.y < a.y + a.h);
+  const shared = (p, q, x, w) => Math.max(0, Math.min(p[x] + p[w], q[x] + q[w]) - Math.max(p[x], q[x]));
+  const covered = (p) => taken.reduce((sum, q) => sum + shared(p, q, "x", "w") * shared(p, q, "y", "h"), 0);
   for (const point of points) {
-    const px = toX(point.x), py = toY(point.y), w = point.method.length * 6.6, h = 13;
-    const spots = [[9, -6], [-9 - w, -6], [-w / 2, -21], [-w / 2, 8], [9, 6], [9, -20], [-9 - w, 8], [-9 - w, -20]];
-    const places = spots.map(([dx, dy]) => ({x: px + dx, y: py + dy, w, h}))
-        .filter((p) => p.x > box.left && p.x + w < width && p.y > 0 && p.y + h < box.bottom);
-    const place = places.find((p) => !meets(p)) ?? places[0];
+    const px = toX(point.x), py = toY(point.y), w = point.method.length * 7.4, h = 13;
+    const spots = [[9, -6], [-9 - w, -6], [-w / 2, -21], [-w / 2, 8], [9, 6], [9, -20], [-9 - w, 8], [-9 - w, -20],
+                   [-w / 2, 22], [-w / 2, -36]];
+    const places = spots.map(([dx, dy]) => ({x: px + dx, y: py + dy, w, h}));
+    const outside = (p) => p.x <= box.left || p.x + w >= width || p.y <= 0 || p.y + h >= box.bottom;
+    const cost = (p) => covered(p) + (outside(p) ? 1e6 : 0);
+    const place = places.reduce((best, p) => cost(p) < cost(best) ? p : best);  // the first, if several are free
     taken.push(place);
     svg.append(make("circle", {cx: px, cy: py, r: 5, fill: colorOf(point.method)},
                     make("title", {}, `${point.method}: ${text(point.y, column)}, ${(10 ** point.x).toPrecision(3)} s/MP`)),
@@ -160,44 +173,75 @@ function scatter(width) {
   return svg;
 }
 
-/** The share of wrong pixels at `coverage`, between the points of one curve; null outside it. */
-function curveAt(curve, coverage) {
+/** Value `k` of a curve's points at `coverage`, between them; below the first, its. */
+function curveAt(curve, coverage, k) {
   const i = curve.findIndex((point) => point[0] >= coverage);
-  if (i < 0) return null;
-  if (i === 0) return curve[0][1];
+  if (i <= 0) return curve[0][k];
   const [a, b] = [curve[i - 1], curve[i]];
-  return a[1] + (b[1] - a[1]) * (coverage - a[0]) / (b[0] - a[0]);
+  return a[k] + (b[k] - a[k]) * (coverage - a[0]) / (b[0] - a[0]);
 }
 
-/** Means at each percent of coverage that at least half of the scenes reach. */
+const meanOf = (values) => values.reduce((a, b) => a + b) / values.length;
+
+/** Mean curve and mean oracle at each percent of coverage that every scene reaches: the same scenes all along. */
 function meanCurve(method, scenes) {
   const curves = scenes.map((scene) => scene.methods[method]?.curves[shown.region]).filter((curve) => curve?.length);
-  const points = [];
-  for (let coverage = 2; coverage <= 100; coverage += 2) {
-    const values = curves.map((curve) => curveAt(curve, coverage)).filter((value) => value != null);
-    if (!values.length || values.length * 2 < curves.length) break;
-    points.push([coverage, values.reduce((a, b) => a + b) / values.length]);
-  }
-  return points;
+  const reached = Math.min(...curves.map((curve) => curve.at(-1)[0]));
+  const stops = curves.length ? [...Array(50).keys()].map((k) => 2 * k + 2).filter((stop) => stop < reached) : [];
+  if (curves.length) stops.push(reached);
+  return [1, 2].map((k) => stops.map((stop) => [stop, meanOf(curves.map((curve) => curveAt(curve, stop, k)))]));
 }
 
-function coverageChart(scenes) {
+/** Mean bias and root mean square of each bin, over the scenes that have inliers there. */
+function meanSubpixel(method, scenes) {
+  const all = scenes.map((scene) => scene.methods[method]?.subpixel[shown.region]).filter((bins) => bins?.length);
+  const count = all[0]?.length ?? 0;
+  return [0, 1].map((k) => [...Array(count).keys()]
+      .map((bin) => [(bin + 0.5) / count, all.map((bins) => bins[bin][k]).filter((value) => value != null)])
+      .filter(([, values]) => values.length).map(([x, values]) => [x, meanOf(values)]));
+}
+
+/** Twice the median of what the lines reach, or the most if that is less: one bad line does not flatten the others. */
+function reachOf(lines) {
+  const most = lines.map((points) => Math.max(...points.map((p) => Math.abs(p[1])))).sort((a, b) => a - b);
+  return Math.min(most.at(-1), 2 * most[most.length >> 1]) * 1.08 || 1;
+}
+
+/** `linesOf(method)`: [solid, dotted], each a list of points, empty if there are none. `x`, `y`: see axes(). */
+function lineChart(linesOf, nothing, x, yOf) {
   return (width) => {
-    const series = record.methods.map((method) => ({method, points: meanCurve(method, scenes)}))
-        .filter((s) => s.points.length);
-    if (!series.length) return make("p", {}, "no method gave a confidence");
-    const top = Math.max(1, ...series.flatMap((s) => s.points.map((p) => p[1]))) * 1.08;
-    const {svg, toX, toY} = axes(width, 320 - 24,
-        {low: 0, high: 100, ticks: [0, 20, 40, 60, 80, 100], text: (t) => t, label: "pixels kept, %"},
-        {low: 0, high: top, ticks: ticksOf(0, top, 5), text: (t) => t, label: "wrong-1, %"});
-    for (const {method, points} of series)
-      svg.append(make("path", {
+    const series = record.methods.map((method) => ({method, lines: linesOf(method)})).filter((s) => s.lines[0].length);
+    if (!series.length) return make("p", {}, nothing);
+    const {svg, toX, toY, box} = axes(width, 320 - 24, x, yOf(series));
+    const [w, h] = [box.right - box.left, box.bottom - box.top];
+    const inside = make("svg", {x: box.left, y: box.top, width: w, height: h,  // cuts off what leads out
+                                viewBox: `${box.left} ${box.top} ${w} ${h}`});
+    for (const {method, lines} of series)
+      lines.forEach((points, k) => inside.append(make("path", {
         d: points.map((p, i) => `${i ? "L" : "M"}${toX(p[0]).toFixed(1)} ${toY(p[1]).toFixed(1)}`).join(""),
-        fill: "none", stroke: colorOf(method), "stroke-width": 2, "stroke-dasharray": isPeer(method) ? "5 4" : undefined,
-      }, make("title", {}, method)));
+        fill: "none", stroke: colorOf(method), "stroke-width": k ? 1.3 : 2, class: k ? "dotted" : undefined,
+        "stroke-dasharray": k ? "1.5 3" : isPeer(method) ? "5 4" : undefined,
+      }, make("title", {}, method))));
+    svg.append(inside);
     const legend = make("div", {class: "legend"}, ...series.map((s) => make("span", {}, dot(s.method), s.method)));
     return make("div", {}, svg, legend);
   };
+}
+
+function coverageChart(scenes) {
+  const x = {low: 0, high: 100, ticks: [0, 20, 40, 60, 80, 100], text: (t) => t, label: "pixels kept, %"};
+  return lineChart((method) => meanCurve(method, scenes), "no method gave a confidence", x, (series) => {
+    const high = reachOf(series.map((s) => s.lines[0]));
+    return {low: 0, high, ticks: ticksOf(0, high, 5), text: (t) => t, label: "wrong-1, %"};
+  });
+}
+
+function subpixelChart(scenes) {
+  const x = {low: 0, high: 1, ticks: [0, 0.25, 0.5, 0.75, 1], text: (t) => t, label: "fraction of the true disparity"};
+  return lineChart((method) => meanSubpixel(method, scenes), "there are no inliers", x, (series) => {
+    const high = reachOf(series.map((s) => s.lines[1])), low = -reachOf(series.map((s) => s.lines[0]));
+    return {low, high, ticks: ticksOf(low, high, 6), text: (t) => t, label: "px"};
+  });
 }
 
 /** Keeps `draw(width)` as wide as its holder. */
@@ -361,13 +405,13 @@ function captionOf(scene, method) {
 async function showScene(index) {
   const page = byId("scene"), scene = record.scenes[index];
   const step = (by) => { location.hash = `#scene-${(index + by + record.scenes.length) % record.scenes.length}`; };
-  const maps = make("div", {class: "maps"}), curves = make("div");
+  const maps = make("div", {class: "maps"}), curves = make("div"), subpixel = make("div");
   const range = scene.range;
   page.replaceChildren(
       make("nav", {}, make("a", {href: "#"}, "← all scenes"), make("h2", {}, scene.name),
            make("span", {class: "aside"}, `${scene.width} × ${scene.height}, ${scene.disparities} disparities searched`),
            make("button", {click: () => step(-1)}, "previous"), make("button", {click: () => step(1)}, "next")),
-      make("div", {class: "wide scene-table"}, methodTable((method) => scene.methods[method]?.[shown.region])),
+      make("div", {class: "wide scene-table"}, methodTable("scene", (method) => scene.methods[method]?.[shown.region])),
       make("div", {class: "scale"},
            make("span", {}, `far, ${range.low.toFixed(1)} px`, make("i", {style: gradient("disparity")}),
                 `${range.high.toFixed(1)} px, near`),
@@ -375,11 +419,13 @@ async function showScene(index) {
            make("span", {}, make("b", {style: "background:#fff"}), "no disparity"),
            make("span", {}, make("b", {style: "background:#000"}), "unknown")),
       maps, make("section", {class: "charts"},
-                 make("figure", {}, make("figcaption", {}, "Wrong by more than 1 px among the pixels kept"), curves)));
+                 make("figure", {}, make("figcaption", {}, "Wrong by more than 1 px among the pixels kept"), curves),
+                 make("figure", {}, make("figcaption", {}, "Inliers' bias; dotted: root mean square"), subpixel)));
   byId("overview").hidden = true;
   page.hidden = false;
   scrollTo(0, 0);
   keepDrawn(curves, coverageChart([scene]));
+  keepDrawn(subpixel, subpixelChart([scene]));
   const views = await viewsOf(scene, JSON.parse(byId(`data-${index}`).textContent));
   if (page.hidden || !maps.isConnected) return;  // another page was opened meanwhile
   maps.append(figureOf(views, views.filter((view) => !view.method),
@@ -394,10 +440,12 @@ async function showScene(index) {
 function showOverview() {
   byId("scene").hidden = true;
   byId("overview").hidden = false;
-  byId("means").replaceChildren(methodTable((method) => record.means[method][shown.region]));
+  byId("means").replaceChildren(methodTable("means", (method) => record.means[method][shown.region],
+                                             (method) => record.means[method].scenes[shown.region]));
   byId("scenes").replaceChildren(sceneTable());
   keepDrawn(byId("scatter"), scatter);
   keepDrawn(byId("curves"), coverageChart(record.scenes));
+  keepDrawn(byId("subpixel"), subpixelChart(record.scenes));
 }
 
 function show() {
@@ -411,15 +459,16 @@ function show() {
 }
 
 function setUp() {
-  byId("summary").textContent = `${record.scenes.length} scenes, ${record.methods.length} methods`;
+  byId("summary").textContent = `${counted(record.scenes.length, "scene")}, ${counted(record.methods.length, "method")}`;
   for (const [region, label] of Object.entries(REGIONS))
     byId("region").append(make("button", {"data-region": region, click: () => { shown.region = region; show(); }}, label));
   for (const column of record.columns)
     byId("metric").append(make("option", {value: column.name, selected: column.name === shown.metric}, column.name));
   byId("metric").addEventListener("change", (event) => { shown.metric = event.target.value; showOverview(); });
   byId("every-column").addEventListener("change", (event) => { shown.everyColumn = event.target.checked; showOverview(); });
-  for (const problem of record.problems) byId("problems").querySelector("ul").append(make("li", {}, problem));
-  byId("problems").hidden = !record.problems.length;
+  const remarks = [...record.problems, ...record.remarks];
+  byId("problems").querySelector("ul").append(...remarks.map((remark) => make("li", {}, remark)));
+  byId("problems").hidden = !remarks.length;
   for (const {name, value} of record.facts) byId("facts").append(make("dt", {}, name), make("dd", {}, value));
   for (const column of record.columns) byId("columns").append(make("dt", {}, column.name), make("dd", {}, column.description));
   addEventListener("hashchange", show);

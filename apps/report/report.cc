@@ -90,13 +90,25 @@ Json numbers(const std::vector<double>& values) {
   return list;
 }
 
+double rounded(double value) {
+  return std::round(value * 1000) / 1000;
+}
+
 Json curvePoints(const std::optional<RegionFigures>& figures) {
-  const auto rounded = [](double value) { return std::round(value * 1000) / 1000; };
   Json points = Json::array();
   if (figures)
     for (const CoverageCurve::Point& point : figures->curve.points)
-      points.push_back({rounded(point.coverage_percent), rounded(point.wrong_percent)});
+      points.push_back(
+          {rounded(point.coverage_percent), rounded(point.wrong_percent), rounded(point.oracle_percent)});
   return points;
+}
+
+Json subpixelBins(const std::optional<RegionFigures>& figures) {
+  Json bins = Json::array();
+  if (figures)
+    for (const SubpixelErrors::Bin& bin : figures->subpixel.bins)
+      bins.push_back({rounded(bin.biasPx()), rounded(bin.rmsPx())});  // null for the NaN of an empty bin
+  return bins;
 }
 
 Json figuresByRegion(const auto& figures) {
@@ -111,15 +123,17 @@ Json figuresOfScene(const std::string& scene, const EvalRecord& record) {
     methods[m.method] = figuresByRegion([&](Region region) { return figuresOf(m, region); });
     methods[m.method]["curves"] = {{name(Region::kAll), curvePoints(m.all)},
                                    {name(Region::kNonoccluded), curvePoints(m.nonoccluded)}};
+    methods[m.method]["subpixel"] = {{name(Region::kAll), subpixelBins(m.all)},
+                                     {name(Region::kNonoccluded), subpixelBins(m.nonoccluded)}};
   }
   return methods;
 }
 
 // What is common to all scenes.
 Json generalPart(const EvalRecord& record) {
-  Json root = {{"region", name(record.region)}, {"methods", record.methods},   {"peers", Json::array()},
-               {"columns", Json::array()},      {"facts", Json::array()},      {"problems", record.problems},
-               {"palettes", palettes()},        {"errorLimit", kErrorLimit_px}};
+  Json root = {{"region", name(record.region)}, {"methods", record.methods}, {"peers", Json::array()},
+               {"columns", Json::array()},      {"facts", Json::array()},    {"problems", record.problems},
+               {"remarks", record.remarks},     {"palettes", palettes()},    {"errorLimit", kErrorLimit_px}};
   for (const std::string& method : record.methods)
     if (method.starts_with("opencv")) root["peers"].push_back(method);
   for (const FigureColumn& column : figureColumns())
@@ -129,9 +143,12 @@ Json generalPart(const EvalRecord& record) {
                                {"main", column.in_terminal}});
   for (const EvalRecord::Fact& fact : record.facts)
     root["facts"].push_back({{"name", fact.name}, {"value", fact.value}});
-  for (const std::string& method : record.methods)
-    root["means"][method] =
-        figuresByRegion([&](Region region) { return record.meanOfMethod(method, region); });
+  for (const std::string& method : record.methods) {
+    Json& mean = root["means"][method];
+    mean = figuresByRegion([&](Region region) { return record.meanOfMethod(method, region); });
+    for (const Region region : {Region::kAll, Region::kNonoccluded})
+      mean["scenes"][name(region)] = record.scenesBehindMean(method, region);
+  }
   return root;
 }
 

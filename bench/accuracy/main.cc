@@ -1,27 +1,37 @@
 // Runs all methods on scenes with known truth, and tabulates how wrong they are.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
-#include <opencv2/core/utility.hpp>
 #include <stdexcept>
 
 #include "bench/accuracy/guard.h"
 #include "bench/accuracy/methods.h"
 #include "bench/accuracy/report.h"
+#include "datasets/atomic_file.h"
 #include "datasets/walk.h"
 
 namespace pomona {
 namespace {
 
-constexpr int kSkipped = 77;  // what ctest takes as "skipped"
-
 struct Arguments {
   std::string scenes;
   std::string markdown, json, accepted, kept;
   std::vector<std::string> methods;
+
+  bool guards() const { return !accepted.empty(); }
+};
+
+/// What was measured, an entry per contender, and how many scenes or methods failed.
+struct Outcome {
+  std::vector<MethodFigures> results;
+  int failures = 0;
+
+  void note(const std::string& what, const std::exception& error) {
+    std::fprintf(stderr, "pomona_accuracy: error: %s: %s\n", what.c_str(), error.what());
+    ++failures;
+  }
 };
 
 SceneFigures measure(Method& method, const MethodOptions& options, const Scene& scene,
@@ -33,26 +43,39 @@ SceneFigures measure(Method& method, const MethodOptions& options, const Scene& 
   return figures;
 }
 
-std::vector<MethodFigures> measureAll(const std::vector<Contender>& contenders, const std::string& root) {
-  std::vector<MethodFigures> results;
+Outcome measureAll(const std::vector<Contender>& contenders, const Arguments& arguments) {
+  Outcome outcome;
   std::vector<std::unique_ptr<Method>> methods;
   for (const Contender& contender : contenders) {
-    results.push_back({contender.name(), contender.kind, {}});
+    outcome.results.push_back({contender.name(), contender.kind, {}});
     methods.push_back(makeMethod(contender.method));
   }
-  for (const SceneFiles& files : findScenes({root})) {
-    const Scene scene = readScene(files);
+  for (const SceneFiles& files : findScenes({arguments.scenes})) {
+    Scene scene;
+    try {
+      scene = readScene(files);
+    } catch (const std::exception& error) {
+      outcome.note(files.name, error);
+      continue;
+    }
     // The same range for everybody: what is compared is the matching, not the guessing.
     const int num_disparities = disparitiesToReach(scene.ground_truth);
     if (num_disparities == 0) continue;
     std::fprintf(stderr, "%s\n", files.name.c_str());
     for (std::size_t i = 0; i < contenders.size(); ++i) {
-      const MethodOptions options = contenders[i].options(num_disparities);
-      results[i].scenes.push_back(measure(*methods[i], options, scene, files.name));
+      if (arguments.guards() && !isGuardedOn(contenders[i].method, files.name)) continue;
+      SceneFigures figures{files.name, noFigures(), noFigures()};
+      try {
+        figures = measure(*methods[i], contenders[i].options(num_disparities), scene, files.name);
+      } catch (const std::exception& error) {
+        outcome.note(files.name + ", " + contenders[i].name(), error);
+      }
+      outcome.results[i].scenes.push_back(figures);
     }
   }
-  if (results.front().scenes.empty()) throw std::runtime_error(root + ": no scene with known truth found");
-  return results;
+  if (outcome.results.front().scenes.empty())
+    throw std::runtime_error(arguments.scenes + ": no scene with known truth could be read");
+  return outcome;
 }
 
 /// `measured`, and the figures in `kept` of whatever was not measured, in the order of the tables.
@@ -71,31 +94,30 @@ std::vector<MethodFigures> completed(const std::vector<MethodFigures>& measured,
   return all;
 }
 
-void write(const std::string& path, const std::string& text) {
-  if (!path.empty() && !(std::ofstream(path) << text << std::flush))
-    throw std::runtime_error(path + ": cannot be written");
-}
-
 int run(const Arguments& arguments) {
-  const bool guarding = !arguments.accepted.empty();
-  if (guarding && !std::filesystem::is_directory(arguments.scenes)) {
-    std::printf("datasets absent: skipped (set POMONA_DATASETS to a folder of Middlebury-layout scenes)\n");
-    return kSkipped;
+  std::vector<OutputFile> outputs;
+  for (const std::string& path : {arguments.markdown, arguments.json}) {
+    if (path.empty()) continue;
+    checkOutputPath(path);
+    outputs.push_back({path, ""});
   }
-  const std::vector<Contender> compared =
-      contenders(guarding && arguments.methods.empty() ? guardedMethods() : arguments.methods);
-  const std::vector<MethodFigures> results = measureAll(compared, arguments.scenes);
   const std::vector<MethodFigures> kept =
       arguments.kept.empty() ? std::vector<MethodFigures>() : readFigures(arguments.kept);
-  const std::vector<MethodFigures> reported = completed(results, kept);
+  const std::vector<MethodFigures> accepted =
+      arguments.guards() ? readFigures(arguments.accepted) : std::vector<MethodFigures>();
+  const std::vector<Contender> compared =
+      contenders(arguments.guards() && arguments.methods.empty() ? guardedMethods() : arguments.methods);
+
+  const Outcome outcome = measureAll(compared, arguments);
+  const std::vector<MethodFigures> reported = completed(outcome.results, kept);
   const std::string table = markdown(reported);
   std::cout << table;
-  write(arguments.markdown, table);
-  write(arguments.json, json(reported));
-  if (!guarding) return 0;
-  const auto failures = accuracyFailures(compared, results, readFigures(arguments.accepted));
-  for (const std::string& failure : failures) std::cout << "FAILED: " << failure << "\n";
-  return failures.empty() ? 0 : 1;
+  for (OutputFile& output : outputs) output.bytes = output.path == arguments.json ? json(reported) : table;
+  writeFiles(outputs);
+  std::vector<std::string> worse;
+  if (arguments.guards()) worse = accuracyFailures(compared, outcome.results, accepted);
+  for (const std::string& failure : worse) std::cout << "FAILED: " << failure << "\n";
+  return worse.empty() && outcome.failures == 0 ? 0 : 1;
 }
 
 }  // namespace
@@ -108,7 +130,7 @@ int main(int argc, char** argv) {
   app.add_option("--markdown", arguments.markdown, "write the tables to this file");
   app.add_option("--json", arguments.json, "write the figures to this file");
   app.add_option("--methods", arguments.methods,
-                 "only these methods (default: all; with --guard, the fast ones)")
+                 "only these methods (default: all; with --guard, without most of OpenCV's)")
       ->delimiter(',');
   app.add_option("--keep", arguments.kept, "report the other methods as this earlier --json has them");
   app.add_option("--guard", arguments.accepted,

@@ -47,7 +47,12 @@ std::vector<Contender> contenders(std::span<const std::string> names) {
 }
 
 std::vector<std::string> guardedMethods() {
-  return {"fast", "balanced", "quality", "paper", "ssd", "ncc", kPeer};
+  return {"fast", "balanced", "quality", "paper", "ssd", "ncc", "asw", kPeer};
+}
+
+bool isGuardedOn(const std::string& method, const std::string& scene) {
+  constexpr std::array<std::string_view, 3> kSmall = {"cones", "teddy", "venus"};
+  return method != "asw" || contains(kSmall, scene);
 }
 
 }  // namespace pomona

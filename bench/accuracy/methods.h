@@ -33,7 +33,11 @@ inline constexpr const char* kPeer = "opencv-hh";
 /// window methods only. Throws std::invalid_argument for a name that is not in the registry.
 std::vector<Contender> contenders(std::span<const std::string> names = {});
 
-/// Those that the guard runs: the presets, the peer, and the fast window methods.
+/// Those that the guard runs: the presets, the peer, and the window methods.
 std::vector<std::string> guardedMethods();
+
+/// Whether the guard runs the method on this scene: adaptive support weights, which take tens of times as
+/// long as the others, on three small ones only.
+bool isGuardedOn(const std::string& method, const std::string& scene);
 
 }  // namespace pomona

@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <iomanip>
-#include <opencv2/core/persistence.hpp>
+#include <nlohmann/json.hpp>
 #include <opencv2/core/version.hpp>
 #include <sstream>
 #include <stdexcept>
+
+#include "datasets/input_file.h"
 
 namespace pomona {
 namespace {
@@ -27,6 +29,7 @@ excess-area: what the confidence loses to a perfect one (area between the covera
 oracle's, percent); inlier-rms: root mean square of errors up to 1 px. Each scene counts the same.
 )";
 
+using Json = nlohmann::ordered_json;
 using Columns = std::vector<Figure>;
 
 std::string number(double value, Figure figure) {
@@ -68,44 +71,47 @@ void addMeans(std::ostream& out, const std::vector<MethodFigures>& methods, MapK
   }
 }
 
-// One row per scene, one column per method of the kind; a cell holds several figures over all pixels.
+// One row per scene of the first method, one column per method of the kind; a cell holds several figures over
+// all pixels.
 void addScenes(std::ostream& out, const std::vector<MethodFigures>& methods, MapKind kind,
                const Columns& figures) {
   std::vector<std::string> header = {"scene"};
-  std::vector<std::vector<std::string>> rows;
-  for (const MethodFigures& method : methods) {
-    if (method.kind != kind) continue;
-    header.push_back(method.method);
-    rows.resize(method.scenes.size());
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (rows[i].empty()) rows[i].push_back(method.scenes[i].scene);
-      std::string cell;
-      for (const Figure f : figures) cell += (cell.empty() ? "" : " / ") + number(method.scenes[i].all[f], f);
-      rows[i].push_back(cell);
-    }
-  }
+  for (const MethodFigures& method : methods)
+    if (method.kind == kind) header.push_back(method.method);
   addHeader(out, header);
-  for (const auto& row : rows) addRow(out, row);
+  if (methods.empty()) return;
+  for (const SceneFigures& row : methods.front().scenes) {
+    std::vector<std::string> cells = {row.scene};
+    for (const MethodFigures& method : methods) {
+      if (method.kind != kind) continue;
+      std::string cell;
+      for (const SceneFigures& scene : method.scenes)
+        if (scene.scene == row.scene)
+          for (const Figure f : figures) cell += (cell.empty() ? "" : " / ") + number(scene.all[f], f);
+      cells.push_back(cell.empty() ? "-" : cell);
+    }
+    addRow(out, cells);
+  }
 }
 
-std::string jsonOf(const Figures& figures) {
-  std::string text;
-  for (int i = 0; i < kFigures; ++i)
-    if (!std::isnan(figures[i]))
-      text += (text.empty() ? "\"" : ", \"") + std::string(kFigureNames[i]) +
-              "\": " + number(figures[i], static_cast<Figure>(i));
-  return "{" + text + "}";
-}
-
-std::string jsonOf(const SceneFigures& scene) {
-  return "    \"" + scene.scene + "\": {\"all\": " + jsonOf(scene.all) +
-         ", \"nonoccluded\": " + jsonOf(scene.nonoccluded) + "}";
-}
-
-Figures figuresFrom(const cv::FileNode& node) {
-  Figures figures = noFigures();
+// To a millionth: what is kept can be averaged again without a trace in the tables.
+Json jsonOf(const Figures& figures) {
+  constexpr double kSteps = 1e6;
+  Json json = Json::object();
   for (std::size_t i = 0; i < kFigures; ++i)
-    if (const cv::FileNode figure = node[kFigureNames[i]]; !figure.isNone()) figures[i] = figure.real();
+    if (!std::isnan(figures[i])) json[kFigureNames[i]] = std::round(figures[i] * kSteps) / kSteps;
+  return json;
+}
+
+// `"name": value` in one line, so that a change of one scene is a change of one line.
+std::string lineOf(const SceneFigures& scene) {
+  const Json figures = {{"all", jsonOf(scene.all)}, {"nonoccluded", jsonOf(scene.nonoccluded)}};
+  return "    " + Json(scene.scene).dump() + ": " + figures.dump();
+}
+
+Figures figuresFrom(const Json& json) {
+  Figures figures = noFigures();
+  for (std::size_t i = 0; i < kFigures; ++i) figures[i] = json.value(kFigureNames[i], figures[i]);
   return figures;
 }
 
@@ -134,31 +140,30 @@ std::string markdown(const std::vector<MethodFigures>& methods) {
 }
 
 std::string json(const std::vector<MethodFigures>& methods) {
-  std::string scenes, body;
+  Json scenes = Json::array();
   if (!methods.empty())
-    for (const SceneFigures& scene : methods.front().scenes)
-      scenes += (scenes.empty() ? "\"" : ", \"") + scene.scene + "\"";
+    for (const SceneFigures& scene : methods.front().scenes) scenes.push_back(scene.scene);
+  std::string body;
   for (const MethodFigures& method : methods) {
-    body += (body.empty() ? "  \"" : ",\n  \"") + method.method + "\": {\n" + jsonOf(method.mean());
-    for (const SceneFigures& scene : method.scenes) body += ",\n" + jsonOf(scene);
+    body += (body.empty() ? "  " : ",\n  ") + Json(method.method).dump() + ": {\n" + lineOf(method.mean());
+    for (const SceneFigures& scene : method.scenes) body += ",\n" + lineOf(scene);
     body += "\n  }";
   }
-  return "{\n \"scenes\": [" + scenes + "],\n \"methods\": {\n" + body + "\n }\n}\n";
+  return "{\n \"scenes\": " + scenes.dump() + ",\n \"methods\": {\n" + body + "\n }\n}\n";
 }
 
 std::vector<MethodFigures> readFigures(const std::string& path) {
+  const std::string text = readFile(path);
   std::vector<MethodFigures> methods;
   try {
-    const cv::FileStorage file(path, cv::FileStorage::READ | cv::FileStorage::FORMAT_JSON);
-    if (!file.isOpened()) throw std::runtime_error("cannot be read");
-    for (const cv::FileNode node : file["methods"]) {
-      MethodFigures method{node.name(), kindOf(node.name()), {}};
-      for (const cv::FileNode name : file["scenes"]) {
-        const cv::FileNode scene = node[name.string()];
-        method.scenes.push_back(
-            {name.string(), figuresFrom(scene["all"]), figuresFrom(scene["nonoccluded"])});
-      }
-      methods.push_back(method);
+    const Json root = Json::parse(text);
+    for (const auto& [name, scenes] : root.at("methods").items()) {
+      MethodFigures method{name, kindOf(name), {}};
+      for (const auto& [scene, figures] : scenes.items())
+        if (scene != "mean")
+          method.scenes.push_back(
+              {scene, figuresFrom(figures.at("all")), figuresFrom(figures.at("nonoccluded"))});
+      methods.push_back(std::move(method));
     }
   } catch (const std::exception& error) {
     throw std::runtime_error(path + ": " + error.what());

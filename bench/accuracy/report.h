@@ -15,7 +15,7 @@ std::string markdown(const std::vector<MethodFigures>& methods);
 /// figures that are not to be had are left out.
 std::string json(const std::vector<MethodFigures>& methods);
 
-/// An earlier json(), to two or three decimals. Throws std::runtime_error naming the file if it cannot be
+/// An earlier json(), to a millionth. Throws std::runtime_error naming the file if it cannot be
 /// read.
 std::vector<MethodFigures> readFigures(const std::string& path);
 

@@ -25,19 +25,18 @@ struct Sample {
   double r, offset;
 };
 
-/// Pixels seen by both cameras whose winner is the whole disparity next to the truth.
-void collect(const RenderedPair& pair, const WinnerMaps& w, int disparities, std::vector<Sample>& samples) {
-  for (int y = 0; y < pair.left.image.rows; ++y)
-    for (int x = 0; x < pair.left.image.cols; ++x) {
-      const int d = w.index.row(y)[x];
-      const double truth = pair.left.disparity.at<float>(y, x);
-      if (pair.left.mask.at<std::uint8_t>(y, x) != 255 || d == 0 || d + 1 == disparities) continue;
-      if (!(std::abs(truth - d) < 0.75)) continue;
-      const double below = w.below.row(y)[x] - w.best.row(y)[x], above = w.above.row(y)[x] - w.best.row(y)[x];
-      if (std::max(below, above) == 0) continue;
-      const double towards_smaller = below < above ? d - truth : truth - d;
-      samples.push_back({std::min(below, above) / std::max(below, above), towards_smaller});
-    }
+/// Pixels of row y that are seen by both cameras and whose winner is the whole disparity next to the truth.
+void collect(const RenderedPair& pair, int y, const WinnerRow& w, std::vector<Sample>& samples) {
+  for (int x = 0; x < pair.left.image.cols; ++x) {
+    const int d = w.index[x];
+    const double truth = pair.left.disparity.at<float>(y, x);
+    if (pair.left.mask.at<std::uint8_t>(y, x) != 255 || d == 0 || d + 1 == w.disparities) continue;
+    if (!(std::abs(truth - d) < 0.75)) continue;
+    const double below = w.below[x] - w.best[x], above = w.above[x] - w.best[x];
+    if (std::max(below, above) == 0) continue;
+    const double towards_smaller = below < above ? d - truth : truth - d;
+    samples.push_back({std::min(below, above) / std::max(below, above), towards_smaller});
+  }
 }
 
 double rms(const std::vector<Sample>& samples, double (*curve)(double r, double a), double a) {
@@ -64,10 +63,9 @@ int fit() {
       InputPair input;
       input.set(pair.left.image, pair.right.image, availableThreads());
       SgmMatcher matcher;
-      MatchMaps maps;
-      matcher.match(input.views(), {0, kDisparities, options.cost, options.aggregation, options.winner}, {},
-                    kernels, maps, availableThreads());
-      collect(pair, matcher.winners(), kDisparities, samples);
+      matcher.findWinners(
+          input.views(), {0, kDisparities, options.cost, options.aggregation, options.winner}, {}, kernels,
+          [&](int y, const WinnerRow& winners) { collect(pair, y, winners, samples); }, 1);
     }
 
   constexpr int kBins = 20;

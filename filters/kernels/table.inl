@@ -4,15 +4,27 @@
 #include "filters/kernels/color.inl"
 #include "filters/kernels/exp2.inl"
 #include "filters/kernels/joint_bilateral.inl"
+#include "filters/kernels/left_right.inl"
 #include "filters/kernels/median.inl"
 #include "filters/kernels/plane_refine.inl"
+#include "filters/kernels/speckle.inl"
+#include "filters/kernels/trust.inl"
 #include "filters/kernels/weighted_median.inl"
 
 namespace pomona {
 namespace {
 
-constexpr FilterKernels kTable = {medianRow<3>,  medianRow<5>,     jointBilateralBlock,
-                                  markNearJumps, weightedMedianAt, {refinePlanesRow<2>, refinePlanesRow<3>}};
+constexpr FilterKernels kTable = {.metDisparities = metDisparitiesOf,
+                                  .matches = matchesOf,
+                                  .trustCodes = trustCodesOf,
+                                  .breaks = breaksOf,
+                                  .links = linksOf,
+                                  .median3x3 = medianRow<3>,
+                                  .median5x5 = medianRow<5>,
+                                  .jointBilateral = jointBilateralBlock,
+                                  .nearJumps = markNearJumps,
+                                  .weightedMedian = weightedMedianAt,
+                                  .refinePlanes = {refinePlanesRow<2>, refinePlanesRow<3>}};
 
 }  // namespace
 }  // namespace pomona

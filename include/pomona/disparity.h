@@ -20,9 +20,14 @@ struct StageTiming {
 
 /// All maps have the size of the left image, which is the reference view.
 struct StereoResult {
-  cv::Mat disparity;   ///< CV_32F, pixels of the given image, d = x_left - x_right; quiet NaN where unknown
-  cv::Mat state;       ///< CV_8U, values of PixelState
-  cv::Mat confidence;  ///< CV_32F in [0, 1]; 0 where the disparity is unknown
+  cv::Mat disparity;  ///< CV_32F, pixels of the given image, d = x_left - x_right; quiet NaN where unknown
+  cv::Mat state;      ///< CV_8U, values of PixelState
+  /// CV_32F in [0, 1]: the probability that the disparity is right to within a pixel, as rendered scenes have
+  /// it (bench/confidence); 0 where it is unknown.
+  cv::Mat confidence;
+  /// CV_32F, pixels: the disparities of 68.3 % of pixels like this one are off by at most this, as with one
+  /// sigma of a normal distribution; NaN where the disparity is unknown. Filled pixels have larger ones.
+  cv::Mat sigma_px;
   /// Vertical offset y_right - y_left between the views, which should be 0: median over some hundred points,
   /// and the largest anywhere in the image, signless. Beyond 0.5 px matching degrades without other notice:
   /// the camera wants a new calibration. NaN where Options::row_check is off or too few points could be

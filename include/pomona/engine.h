@@ -26,9 +26,11 @@ class StereoEngine {
   StereoEngine& operator=(StereoEngine&&) noexcept;
 
   /// `left`, `right`: views, rectified unless the engine has a rig for that, of equal size and type, CV_8U or
-  /// CV_16U with 1 or 3 channels (BGR), any stride. `mask`: empty, or CV_8U of the same size; pixels that are
-  /// 0 are neither measured nor filled. The result shares its maps with the engine: they stay valid until the
-  /// next call; clone() what must last. Throws std::invalid_argument for unusable input.
+  /// CV_16U with 1 or 3 channels (BGR), any stride; of 16-bit values, those stages that work on 8 bits use
+  /// the upper ones of the bits that all but a thousandth of the values fit in. `mask`: empty, or CV_8U of
+  /// the same size; pixels that are 0 are neither measured nor filled. The result shares its maps with the
+  /// engine: they stay valid until the next call; clone() what must last. Throws std::invalid_argument for
+  /// unusable input.
   const StereoResult& compute(const cv::Mat& left, const cv::Mat& right, const cv::Mat& mask = {});
 
   const Options& options() const;
@@ -47,10 +49,13 @@ class StereoEngine {
 };
 
 /// One pair, one call. The result owns its maps.
-StereoResult computeDisparity(const cv::Mat& left, const cv::Mat& right, const Options& options = {});
+StereoResult computeDisparity(const cv::Mat& left, const cv::Mat& right, const Options& options = {},
+                              const cv::Mat& mask = {});
 
-/// The number of disparities (from `min_disparity` up, a multiple of 16) that the pair seems to need, from a
-/// match at a quarter of its size. Never more than the image width or 1024.
-int estimateNumDisparities(const cv::Mat& left, const cv::Mat& right, int min_disparity = 0);
+/// The number of disparities (from options.min_disparity up, a multiple of 16) that the pair seems to need
+/// where `mask` does not exclude it, from a match at a quarter of its size. Never more than the image width
+/// or 1024. Of the options, min_disparity, threads and isa count.
+int estimateNumDisparities(const cv::Mat& left, const cv::Mat& right, const Options& options = {},
+                           const cv::Mat& mask = {});
 
 }  // namespace pomona

@@ -92,7 +92,9 @@ struct KittiErrors {
 };
 
 /// `object_map`: CV_8U, 0 background, else a vehicle (obj_map of the training set); empty: all is background.
-KittiErrors kittiErrors(const cv::Mat& disparity, const cv::Mat& truth, const cv::Mat& object_map = {});
+/// With a mask of the non-occluded pixels: the benchmark's D1-noc, else its D1-occ.
+KittiErrors kittiErrors(const cv::Mat& disparity, const cv::Mat& truth, const cv::Mat& object_map = {},
+                        const cv::Mat& mask = {});
 
 /// Fills each hole of the CV_32F map with the smaller, so farther, of the nearest disparities left and right
 /// of it in its row: what is hidden in one view is background. Rows without any disparity take the row above,
@@ -107,7 +109,8 @@ double secondsPerGigadisparity(double seconds, cv::Size size, int num_disparitie
 /// sum(w v) / sum(w) over the values that are not NaN. `weights`: empty (all 1), or one per value.
 double weightedMean(std::span<const double> values, std::span<const double> weights = {});
 /// The weight of a scene in the averages of Middlebury v3's training table: 0.5 for the five most difficult
-/// ones (PianoL, Playroom, Playtable, Shelves, Vintage), 1 for any other name.
+/// ones (PianoL, Playroom, Playtable, Shelves, Vintage), 1 for any other name. Folders before the name, as in
+/// "trainingQ/Shelves", make no difference.
 double middleburyWeight(std::string_view scene);
 
 /// How well a confidence tells right from wrong: pixels are dropped, least confident first, and the share of

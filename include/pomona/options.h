@@ -62,6 +62,9 @@ struct ValidationOptions {
   int speckle_size_px = 50;
   float speckle_step_px = 1.0f;
   int median_size = 3;  ///< 0 (off), 3 or 5
+  /// Sparse maps only, after all else: what is less likely than this to be right to within a pixel becomes
+  /// kAmbiguous. 0 (off) to 1; 0.9 is strict, 0.98 keeps the best.
+  float min_confidence = 0;
 };
 
 enum class CompletionMethod {
@@ -111,6 +114,14 @@ enum class OutputMode {
   kDense,   ///< every pixel that the mask does not exclude
 };
 
+/// How aggregation keeps the sums of its first pass until the second completes them. The results are the
+/// same.
+enum class MemoryMode {
+  kAutomatic,  ///< kSpeed while the sums take at most 256 MiB, else kLow
+  kSpeed,      ///< all of them: one byte per pixel and disparity, two if p2 > 63
+  kLow,        ///< a few rows of them, computed a second time: memory grows with the root of the height
+};
+
 struct Options {
   int min_disparity = 0;     ///< smallest disparity searched, pixels; may be negative
   int num_disparities = 64;  ///< number of disparities searched, 1..1024; at most the image width
@@ -126,6 +137,7 @@ struct Options {
   /// Measure the vertical offset between the views (StereoResult::row_offset_px): about 1 ms.
   bool row_check = true;
 
+  MemoryMode memory = MemoryMode::kAutomatic;
   int threads = 0;  ///< worker threads; 0: one per available processor; at most 1024
   std::string
       isa;  ///< "scalar", "avx2", "avx512", "neon"; empty: POMONA_ISA if set, else the best the CPU has

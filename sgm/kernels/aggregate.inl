@@ -31,13 +31,13 @@ POMONA_OP U8 extendPath(const U8* previous, U8 minimum, U8 p1, U8 p2, const U8* 
   // one.
   const U8 below_first = simd::previousLane(previous[n - 1]), above_last = simd::nextLane(previous[0]);
   const U8 jump = simd::add(minimum, p2);
-  U8 smallest = simd::broadcast(255);
+  U8 smallest = jump;  // until the loop has its first
   for (int j = 0; j < n; ++j) {
     const U8 below = j > 0 ? previous[j - 1] : below_first, above = j < n - 1 ? previous[j + 1] : above_last;
     const U8 stepped = simd::add(simd::min(below, above), p1);
     const U8 cheapest = simd::min(simd::min(previous[j], stepped), jump);
     next[j] = simd::add(cost[j], simd::sub(cheapest, minimum));
-    smallest = simd::min(smallest, next[j]);
+    smallest = j == 0 ? next[0] : simd::min(smallest, next[j]);
   }
   return smallest;
 }

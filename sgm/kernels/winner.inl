@@ -31,8 +31,8 @@ class Winner {
     int index = pomona::kMaxDisparities;
     for (int j = 0; j < n; ++j) {
       const std::uint64_t lanes = simd::equalLanes(sums[2 * j], sums[2 * j + 1], best);
-      const int lane = lanes ? __builtin_ctzll(lanes) : pomona::kMaxDisparities;
-      index = n * lane + j < index ? n * lane + j : index;
+      const int d = n * (lanes ? __builtin_ctzll(lanes) : pomona::kMaxDisparities) + j;
+      index = d < index ? d : index;
     }
     const simd::U16 first_near = simd::broadcast16(static_cast<std::uint16_t>(index - 1));
     simd::U16 second = simd::broadcast16(0xFFFF);
@@ -46,8 +46,8 @@ class Winner {
     }
     row_.index[x] = static_cast<std::uint16_t>(index);
     row_.best[x] = simd::first16(best);
-    row_.below[x] = memory[row_.position[index > 0 ? index - 1 : 0]];
-    row_.above[x] = memory[row_.position[index < row_.disparities - 1 ? index + 1 : index]];
+    row_.below[x] = memory[row_.position[index - 1]];
+    row_.above[x] = memory[row_.position[index + 1]];
     row_.second[x] = simd::first16(simd::minimum16(second));
     emitRight<kVectors>(x);
   }
@@ -86,12 +86,12 @@ class Winner {
 
   /// `x`: the left column that right pixel q maps to at disparity index 0.
   POMONA_OP void writeRight(int q, int x, std::uint16_t best, std::uint16_t index, int n) {
-    const int column = x + index;
-    std::uint16_t below = 0xFFFF, above = 0xFFFF;
-    if (index > 0 && index < row_.disparities - 1 && column > 0 && column < width_ - 1) {
-      below = sumsOf(column - 1, n)[row_.position[index - 1]];
-      above = sumsOf(column + 1, n)[row_.position[index + 1]];
-    }
+    // Without a branch: on real images it would often be mispredicted.
+    const int column = x + index, at = index == pomona::kNoIndex ? 0 : index;
+    const bool inside = (index - 1u < row_.disparities - 2u) & (column - 1u < width_ - 2u);
+    const std::uint16_t absent = static_cast<std::uint16_t>(inside - 1);
+    const std::uint16_t below = absent | sumsOf(column - 1, n)[row_.position[at - 1]];
+    const std::uint16_t above = absent | sumsOf(column + 1, n)[row_.position[at + 1]];
     row_.right_index[q] = index;
     row_.right_best[q] = best;
     row_.right_below[q] = below;

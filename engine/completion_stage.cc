@@ -1,0 +1,87 @@
+#include "engine/completion_stage.h"
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "core/parallel.h"
+#include "pomona/pixel_state.h"
+
+namespace pomona {
+namespace {
+
+struct Limits {
+  float low, high;
+  explicit Limits(const MatchOptions& match)
+      : low(static_cast<float>(match.min_disparity)),
+        high(static_cast<float>(match.min_disparity + match.disparities - 1)) {}
+};
+
+/// Filling and smoothing may overshoot.
+void clampTo(Limits limits, Image<float>& disparity, int threads) {
+  parallelStrips(threads, disparity.height(), 32, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      for (int x = 0; x < disparity.width(); ++x) {
+        float& d = disparity.row(y)[x];
+        d = d < limits.low ? limits.low : d > limits.high ? limits.high : d;  // NaN stays
+      }
+  });
+}
+
+}  // namespace
+
+void CompletionStage::run(const MatchInput& pair, const SparseStage::Settings& settings,
+                          const CompletionOptions& options, MatchMaps& maps, StageClock& clock) {
+  if (options.method == CompletionMethod::kPaper) {
+    takeCoarse(pair, settings, options, maps);
+    clock.lap("coarse maps");
+  } else {
+    fillHolesOf(pair, settings, options, maps, clock);
+  }
+  clampTo(Limits(settings.match), maps.disparity, settings.threads);
+}
+
+/// The paper's dense map: every pixel from the coarse scales.
+void CompletionStage::takeCoarse(const MatchInput& pair, const SparseStage::Settings& settings,
+                                 const CompletionOptions& options, MatchMaps& maps) {
+  maps.resize(pair.left.width, pair.left.height);
+  const ImageView<const float> map = coarse_.run(pair, settings, options);
+  const float lowest = Limits(settings.match).low;
+  parallelStrips(settings.threads, map.height, 32, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      for (int x = 0; x < map.width; ++x) {
+        const bool masked = !settings.mask.empty() && settings.mask.at(y, x) == 0;
+        const float d = map.at(y, x);
+        maps.state.row(y)[x] =
+            static_cast<std::uint8_t>(masked ? PixelState::kMasked : PixelState::kFilledCoarse);
+        maps.disparity.row(y)[x] = masked          ? std::numeric_limits<float>::quiet_NaN()
+                                   : std::isnan(d) ? lowest
+                                                   : d;
+      }
+  });
+}
+
+void CompletionStage::fillHolesOf(const MatchInput& pair, const SparseStage::Settings& settings,
+                                  const CompletionOptions& options, MatchMaps& maps, StageClock& clock) {
+  const Limits limits(settings.match);
+  const PyramidKernels& kernels = pyramidKernels(settings.isa);
+  if (options.segment_planes)
+    fillFromPlanes({.guide = pair.guide,
+                    .right_disparity = maps.right_disparity.view(),
+                    .scale = options.segment_scale,
+                    .min_disparity = limits.low,
+                    .max_disparity = limits.high},
+                   maps.disparity.view(), maps.state.view(), planes_, kernels, settings.threads);
+  clock.lap("segment planes");
+  const auto coarse_map = [&] { return coarse_.run(pair, settings, options); };
+  fillHoles({.guide = pair.guide,
+             .right_disparity = maps.right_disparity.view(),
+             .coarse = coarse_map,
+             .search_radius_px = options.search_radius_px,
+             .fallback_disparity = limits.low},
+            maps.disparity.view(), maps.state.view(), holes_, kernels, settings.threads);
+  clock.lap("hole filling");
+  refinement_.run(maps.disparity, pair.guide, options, filterKernels(settings.isa), settings.threads, clock);
+}
+
+}  // namespace pomona

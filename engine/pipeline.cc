@@ -1,0 +1,52 @@
+#include "engine/pipeline.h"
+
+#include <utility>
+
+namespace pomona {
+
+void Pipeline::run(const MatchInput& pair, ImageView<const std::uint8_t> mask, StageClock& clock) {
+  const SparseStage::Settings s = settings(mask);
+  if (!isPaper()) match(pair, s, clock);
+  if (isDense()) completion_.run(pair, s, options_.completion, maps(), clock);
+  if (matchesTwice()) matchAgain(pair, s, clock);
+}
+
+SparseStage::Settings Pipeline::settings(ImageView<const std::uint8_t> mask) const {
+  SparseStage::Settings s;
+  s.match = {options_.min_disparity, options_.num_disparities, options_.cost,
+             options_.aggregation,   options_.winner,          options_.memory};
+  s.validation = options_.validation;
+  if (isDense() && !isPaper()) {
+    s.validation.left_right_px = options_.completion.seed_left_right_px;
+    s.validation.speckle_size_px = options_.completion.seed_speckle_size_px;
+  }
+  s.mask = mask;
+  s.isa = isa_;
+  s.threads = threads_;
+  return s;
+}
+
+void Pipeline::match(const MatchInput& pair, const SparseStage::Settings& settings, StageClock& clock) {
+  SparseStage::Settings with_table = settings;
+  if (options_.cost.cost == MatchingCost::kMutualInformation) {
+    with_table.mutual_information = mutual_information_.table(pair, settings);
+    clock.lap("mutual information");
+  }
+  sparse_.run(pair, with_table, clock);
+}
+
+/// The second pass: the completed map, which maps() holds, becomes the prior of another match.
+void Pipeline::matchAgain(const MatchInput& pair, const SparseStage::Settings& settings, StageClock& clock) {
+  std::swap(first_map_, maps().disparity);
+  MatchInput views = pair;
+  views.prior = first_map_.view();
+  SparseStage::Settings again = settings;
+  again.match.cost = options_.second_pass.cost;
+  again.match.aggregation = options_.second_pass.aggregation;
+  again.match.prior_weight = options_.second_pass.weight;
+  again.match.prior_reach_px = options_.second_pass.reach_px;
+  sparse_.run(views, again, clock);
+  completion_.run(pair, settings, options_.completion, maps(), clock);
+}
+
+}  // namespace pomona

@@ -1,0 +1,99 @@
+#include "engine/trust.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/parallel.h"
+#include "pomona/pixel_state.h"
+
+namespace pomona {
+namespace {
+
+/// A polynomial in the features of a measured pixel.
+struct Fit {
+  double constant, margin, margin_squared, curvature, residual, no_residual;
+
+  double of(const TrustFeatures& f) const {
+    const bool none = f.residual == kTrustSteps - 1;
+    return constant + margin * f.margin + margin_squared * f.margin * f.margin + curvature * f.curvature +
+           (none ? no_residual : residual * f.residual);
+  }
+};
+
+// Printed by bench/confidence.
+constexpr Fit kLogOdds = {3.384, 0.1741, 0.02215, -0.0983, -0.0968, -2.283};
+constexpr Fit kLogSigma = {-1.101, -0.0960, 0.00293, 0.0129, 0.0299, 0.940};
+
+constexpr Trust::Pair trustInFilled(PixelState state) {
+  switch (state) {
+    case PixelState::kFilledPlane:
+      return {0.89f, 0.43f};
+    case PixelState::kFilledBackground:
+      return {0.58f, 6.38f};
+    case PixelState::kFilledInterpolated:
+      return {0.48f, 16.40f};
+    case PixelState::kFilledCoarse:
+      return {0.44f, 2.78f};
+    default:
+      return {0.0f, std::numeric_limits<float>::quiet_NaN()};
+  }
+}
+
+}  // namespace
+
+void trustCodes(const MatchMaps& maps, int largest_cost_sum, int y, int x_begin, int count,
+                const FilterKernels& kernels, std::uint16_t* codes) {
+  kernels.trustCodes(
+      {{maps.disparity.row(y) + x_begin, maps.right_disparity.row(y), x_begin, count, maps.disparity.width()},
+       maps.margin.row(y) + x_begin,
+       maps.curvature.row(y) + x_begin,
+       12.0f / static_cast<float>(largest_cost_sum)},
+      codes);
+}
+
+Trust::Trust() {
+  for (int code = 0; code < TrustFeatures::kCodes; ++code) {
+    const TrustFeatures f = TrustFeatures::of(code);
+    measured_[code] = {static_cast<float>(1 / (1 + std::exp(-kLogOdds.of(f)))),
+                       static_cast<float>(std::exp(kLogSigma.of(f)))};
+  }
+  for (int state = 0; state < 256; ++state) in_state_[state] = trustInFilled(static_cast<PixelState>(state));
+}
+
+void Trust::estimate(const MatchMaps& maps, int largest_cost_sum, const FilterKernels& kernels, int threads) {
+  const int width = maps.disparity.width(), height = maps.disparity.height();
+  confidence.resize(width, height);
+  sigma_px.resize(width, height);
+  parallelStrips(threads, height, 32, [&](int y_begin, int y_end) {
+    std::uint16_t codes[kTrustChunk];
+    for (int y = y_begin; y < y_end; ++y)
+      for (int begin = 0; begin < width; begin += kTrustChunk) {
+        const int count = std::min(kTrustChunk, width - begin);
+        trustCodes(maps, largest_cost_sum, y, begin, count, kernels, codes);
+        const std::uint8_t* state = maps.state.row(y) + begin;
+        for (int i = 0; i < count; ++i) {
+          const bool measured = isMeasured(static_cast<PixelState>(state[i]));
+          const Pair& pair = *(measured ? &measured_[codes[i]] : &in_state_[state[i]]);  // no branch
+          confidence.row(y)[begin + i] = pair.confidence;
+          sigma_px.row(y)[begin + i] = pair.sigma_px;
+        }
+      }
+  });
+}
+
+void Trust::reject(MatchMaps& maps, float min_confidence, int threads) {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  parallelStrips(threads, confidence.height(), 32, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      for (int x = 0; x < confidence.width(); ++x) {
+        std::uint8_t& state = maps.state.row(y)[x];
+        if (!isMeasured(static_cast<PixelState>(state)) || confidence.row(y)[x] >= min_confidence) continue;
+        state = static_cast<std::uint8_t>(PixelState::kAmbiguous);
+        maps.disparity.row(y)[x] = sigma_px.row(y)[x] = kNan;
+        confidence.row(y)[x] = 0;
+      }
+  });
+}
+
+}  // namespace pomona
