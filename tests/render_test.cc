@@ -248,7 +248,8 @@ TEST(NamedScenes, AreTheSameEverywhere) {
                 {"spheres", 0xe394bc5213c80250u}};
   for (const auto& scene : golden)
     EXPECT_EQ(fnv1a(render(namedScene(scene.name, 5, 96, 72, 16))), scene.hash) << scene.name;
-  for (const auto& [name, hash] : {std::pair("orchard", 0xfcd21280e8b9f5cu), {"storefront", 0xdefb6c480c9f63c3u}})
+  for (const auto& [name, hash] :
+       {std::pair("orchard", 0xfcd21280e8b9f5cu), {"storefront", 0xdefb6c480c9f63c3u}})
     EXPECT_EQ(fnv1a(render(anyScene(name, 96, 72))), hash) << name;
 }
 
