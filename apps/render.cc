@@ -1,4 +1,6 @@
+// `pomona render`: options to scene descriptions, scenes to files.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdint>
 #include <iostream>
 #include <memory>
@@ -6,14 +8,14 @@
 #include <string>
 #include <vector>
 
+#include "apps/scene_files.h"
 #include "apps/verbs.h"
-#include "datasets/atomic_file.h"
 #include "datasets/chessboard.h"
 #include "datasets/image_file.h"
 #include "datasets/input_file.h"
-#include "datasets/middlebury_calib.h"
 #include "datasets/named_scenes.h"
-#include "datasets/pfm.h"
+#include "datasets/rendering/named_rigs.h"
+#include "datasets/rig_formats.h"
 #include "pomona/rig.h"
 
 namespace pomona {
@@ -22,9 +24,14 @@ namespace {
 struct RenderArguments {
   std::string scene;
   std::uint64_t seed = 1;
-  std::string size = "640x480";
+  std::string rig, size;
   int num_disparities = 0;
-  std::string rig;
+  OrchardOptions orchard;
+  StorefrontOptions storefront;
+  CameraEffects effects;
+  double right_shift_px = 0;
+  bool lens = false;
+  int bits = 8;
   int views = 20;
   double square_mm = 20;
   double noise = 2;
@@ -39,17 +46,22 @@ cv::Size parseSize(const std::string& text) {
   return {width, height};
 }
 
-void writeScene(const std::string& folder, const RenderedPair& pair) {
-  const OutputFile files[] = {
-      {"im0.png", encodeImage(pair.left.image)},
-      {"im1.png", encodeImage(pair.right.image)},
-      {"disp0GT.pfm", encodePfm(pair.left.disparity)},
-      {"disp1GT.pfm", encodePfm(pair.right.disparity)},
-      {"mask0nocc.png", encodeImage(pair.left.mask)},
-      {"mask1nocc.png", encodeImage(pair.right.mask)},
-      {"calib.txt", encodeMiddleburyCalibration(pair.calibration)},
-  };
-  writeFolder(folder, files);
+// "A..B", or "A" for both.
+void parseRange(const std::string& option, const std::string& text, double& low, double& high) {
+  const std::size_t dots = text.find("..");
+  const std::string first = text.substr(0, dots), last = dots == text.npos ? first : text.substr(dots + 2);
+  if (!parseNumber(first, low) || !parseNumber(last, high))
+    throw std::invalid_argument(option + " is '" + text + "'; allowed: FROM..TO, for example 0.6..0.75");
+}
+
+// One of the renderer's own rigs, or a file.
+StereoRig rigOf(const RenderArguments& arguments) {
+  const std::vector<std::string> names = rigNames();
+  const bool named = std::find(names.begin(), names.end(), arguments.rig) != names.end();
+  const StereoRig rig = named ? namedRig(arguments.rig) : readRig(arguments.rig);
+  if (arguments.size.empty()) return rig;
+  const cv::Size size = parseSize(arguments.size);
+  return resized(rig, size.width, size.height);
 }
 
 std::string numbered(const char* name, int number) {
@@ -60,7 +72,7 @@ std::string numbered(const char* name, int number) {
 // Pictures to calibrate by, and the rig that they should give.
 void renderChessboards(const RenderArguments& arguments) {
   if (arguments.rig.empty()) throw std::invalid_argument("chessboard: --rig is missing");
-  const StereoRig rig = readRig(arguments.rig);
+  const StereoRig rig = rigOf(arguments);
   const Chessboard board{9, 6, arguments.square_mm / 1000};
   const ChessboardRenderer left(rig.left, board), right(rig.right, board);
   std::vector<OutputFile> files;
@@ -77,14 +89,113 @@ void renderChessboards(const RenderArguments& arguments) {
             << arguments.square_mm << " mm apart\n";
 }
 
-void renderToFolder(const RenderArguments& arguments) {
+// The scene that pictures are taken of: what the scene's own maker left open.
+void finish(const RenderArguments& arguments, SceneDescription& scene) {
+  scene.bits = arguments.bits;
+  if (arguments.lens) takeThroughLenses(rigOf(arguments), scene);
+  if (arguments.right_shift_px != 0) shiftRightView(arguments.right_shift_px, scene);
+}
+
+SceneDescription namedSceneFor(const RenderArguments& arguments) {
+  if (!arguments.rig.empty())
+    return namedScene(arguments.scene, arguments.seed, sceneFor(rigOf(arguments)), arguments.num_disparities);
+  const cv::Size size = parseSize(arguments.size.empty() ? "640x480" : arguments.size);
+  return namedScene(arguments.scene, arguments.seed, size.width, size.height, arguments.num_disparities);
+}
+
+void renderToFolder(RenderArguments arguments) {
   if (arguments.scene == "chessboard") return renderChessboards(arguments);
-  const cv::Size size = parseSize(arguments.size);
-  const RenderedPair pair =
-      render(namedScene(arguments.scene, arguments.seed, size.width, size.height, arguments.num_disparities));
-  writeScene(arguments.folder, pair);
-  std::cout << arguments.folder << ": " << arguments.scene << ", " << size.width << " x " << size.height
-            << ", disparities below " << pair.calibration.num_disparities << '\n';
+  const bool has_rig = arguments.scene == "orchard" || arguments.scene == "storefront";
+  if (has_rig && arguments.rig.empty()) arguments.rig = "seed-003";
+  if (arguments.lens && arguments.rig.empty()) throw std::invalid_argument("--lens needs --rig");
+  arguments.effects.noise_seed = arguments.orchard.seed = arguments.storefront.seed = arguments.seed;
+
+  RenderedPair pair;
+  std::vector<OutputFile> lists;
+  if (arguments.scene == "orchard") {
+    Orchard trees = orchard(sceneFor(rigOf(arguments)), arguments.orchard);
+    finish(arguments, trees.scene);
+    pair = render(trees.scene, arguments.effects);
+    lists = fruitFiles(trees, pair);
+  } else if (arguments.scene == "storefront") {
+    Storefront street = storefront(sceneFor(rigOf(arguments)), arguments.storefront);
+    finish(arguments, street.scene);
+    pair = render(street.scene, arguments.effects);
+    lists = signFiles(street, pair);
+  } else {
+    SceneDescription scene = namedSceneFor(arguments);
+    finish(arguments, scene);
+    pair = render(scene, arguments.effects);
+  }
+  std::vector<OutputFile> files = pairFiles(pair);
+  files.insert(files.end(), lists.begin(), lists.end());
+  if (arguments.lens) files.push_back({"rig.yml", encodeRig(rigOf(arguments))});
+  writeFolder(arguments.folder, files);
+  std::cout << arguments.folder << ": " << arguments.scene << ", " << pair.calibration.width << " x "
+            << pair.calibration.height << ", disparities below " << pair.calibration.num_disparities << '\n';
+}
+
+// Options that only some scenes know are refused for the others.
+void requireKnownOptions(const CLI::App& verb, const std::string& scene) {
+  const struct {
+    const char* option;
+    std::vector<std::string> scenes;
+  } kOnlyFor[] = {{"--distance", {"orchard", "storefront"}},
+                  {"--fruits", {"orchard"}},
+                  {"--walls", {"storefront"}},
+                  {"--yaw", {"storefront"}},
+                  {"--disparities", sceneNames()},
+                  {"--views", {"chessboard"}},
+                  {"--square", {"chessboard"}},
+                  {"--noise", {"chessboard"}}};
+  for (const auto& [option, scenes] : kOnlyFor)
+    if (verb.count(option) > 0 && std::find(scenes.begin(), scenes.end(), scene) == scenes.end())
+      throw std::invalid_argument(std::string(option) + " is no option of the scene '" + scene + "'");
+  if (scene != "chessboard") return;
+  for (const char* option : {"--blur", "--vignetting", "--exposure", "--right-gain", "--shot-noise",
+                             "--read-noise", "--right-shift", "--lens", "--bits"})
+    if (verb.count(option) > 0)
+      throw std::invalid_argument(std::string(option) + " is no option of the scene 'chessboard'");
+}
+
+void addSceneOptions(CLI::App& verb, RenderArguments& a) {
+  const auto setDistance = [&a](const std::string& text) {
+    parseRange("--distance", text, a.orchard.nearest_m, a.orchard.farthest_m);
+    a.storefront.nearest_m = a.orchard.nearest_m;
+    a.storefront.farthest_m = a.orchard.farthest_m;
+  };
+  const auto setYaw = [&a](const std::string& text) {
+    parseRange("--yaw", text, a.storefront.least_yaw_deg, a.storefront.greatest_yaw_deg);
+  };
+  verb.add_option_function<std::string>(
+      "--distance", setDistance,
+      "orchard: depths of the fruits, m (default 0.6..0.75); storefront: of the walls (default 2..5)");
+  verb.add_option("--fruits", a.orchard.fruits, "orchard: number of fruits (default: 6 to 14)");
+  verb.add_option("--walls", a.storefront.walls, "storefront: number of walls (default 3)");
+  verb.add_option_function<std::string>("--yaw", setYaw,
+                                        "storefront: turn of the walls, degrees (default -45..45)");
+  verb.add_option("--views", a.views, "chessboard: number of pairs (default 20)")->check(CLI::Range(1, 99));
+  verb.add_option("--square", a.square_mm, "chessboard: side of a square, mm (default 20)");
+  verb.add_option("--noise", a.noise, "chessboard: standard deviation, 8-bit units (default 2)")
+      ->check(CLI::Range(0.0, 100.0));
+}
+
+void addCameraOptions(CLI::App& verb, RenderArguments& a) {
+  std::string rigs;
+  for (const std::string& name : rigNames()) rigs += name + ", ";
+  verb.add_option("--rig", a.rig,
+                  rigs + "or a file (see pomona rig); default for orchard and storefront: seed-003");
+  verb.add_option("--size", a.size, "WIDTHxHEIGHT; default: the rig's, without one 640x480");
+  verb.add_option("--disparities", a.num_disparities, "Largest disparity, about (default: width / 10)");
+  verb.add_option("--blur", a.effects.blur_px, "Standard deviation of the blur, pixels");
+  verb.add_option("--vignetting", a.effects.vignetting, "Share of the light lost in the corners, 0 to 1");
+  verb.add_option("--exposure", a.effects.exposure, "Factor on the light of both views");
+  verb.add_option("--right-gain", a.effects.right_gain, "Factor on the values of the right view");
+  verb.add_option("--shot-noise", a.effects.shot_noise, "Standard deviation at white, 8-bit units");
+  verb.add_option("--read-noise", a.effects.read_noise, "Standard deviation anywhere, 8-bit units");
+  verb.add_option("--right-shift", a.right_shift_px, "Rows by which the right picture lies too high");
+  verb.add_flag("--lens", a.lens, "Take the pictures through the rig's lenses; also writes rig.yml");
+  verb.add_option("--bits", a.bits, "Of the pictures: 8 (default) or 16");
 }
 
 }  // namespace
@@ -93,22 +204,18 @@ void addRender(CLI::App& app) {
   CLI::App* verb =
       app.add_subcommand("render", "Render a made-up scene with exact ground truth (Middlebury layout)");
   const auto arguments = std::make_shared<RenderArguments>();  // lives as long as the callback
-  std::string names;
+  std::string names = "orchard, storefront, ";
   for (const std::string& name : sceneNames()) names += name + ", ";
   verb->add_option("scene", arguments->scene, names + "chessboard")->required();
-  verb->add_option("--seed", arguments->seed, "Arrangement and paint (default 1)");
-  verb->add_option("--size", arguments->size, "WIDTHxHEIGHT (default 640x480)");
-  verb->add_option("--disparities", arguments->num_disparities,
-                   "Largest disparity, about (default: width / 10)");
-  verb->add_option("--rig", arguments->rig, "chessboard: the camera whose views to draw (see pomona rig)");
-  verb->add_option("--views", arguments->views, "chessboard: number of pairs (default 20)")
-      ->check(CLI::Range(1, 99));
-  verb->add_option("--square", arguments->square_mm, "chessboard: side of a square, mm (default 20)");
-  verb->add_option("--noise", arguments->noise, "chessboard: standard deviation, 8-bit units (default 2)")
-      ->check(CLI::Range(0.0, 100.0));
+  verb->add_option("--seed", arguments->seed, "Arrangement, paint and noise (default 1)");
+  addSceneOptions(*verb, *arguments);
+  addCameraOptions(*verb, *arguments);
   verb->add_option("-o,--output", arguments->folder, "Folder for the files; made if it is not there")
       ->required();
-  verb->callback([arguments] { renderToFolder(*arguments); });
+  verb->callback([verb, arguments] {
+    requireKnownOptions(*verb, arguments->scene);
+    renderToFolder(*arguments);
+  });
 }
 
 }  // namespace pomona

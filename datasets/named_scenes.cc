@@ -58,11 +58,8 @@ struct Ball {
 
 class SceneBuilder {
  public:
-  SceneBuilder(std::uint64_t seed, int width, int height, int num_disparities) : random_(seed) {
-    scene_.width = width;
-    scene_.height = height;
-    scene_.focal_px = width;  // a horizontal field of view of 53 degrees
-    scene_.baseline_m = 0.12;
+  SceneBuilder(std::uint64_t seed, const SceneDescription& cameras, int num_disparities)
+      : random_(seed), scene_(cameras) {
     scene_.num_disparities = num_disparities;
     scene_.seed = seed;
   }
@@ -111,7 +108,7 @@ class SceneBuilder {
 
  private:
   double depthAt(double share) const {
-    return scene_.focal_px * scene_.baseline_m / (share * scene_.num_disparities);
+    return scene_.focal_px * scene_.baseline_m / (share * scene_.num_disparities + scene_.doffs_px);
   }
   // Metres that the image's width spans at the place's depth.
   double widthAt(Place p) const { return depthAt(p.share) * scene_.width / scene_.focal_px; }
@@ -193,7 +190,7 @@ void addTree(SceneBuilder& b, double x, double share) {
 }
 
 // Trees of one row, before the hedge at the meadow's end.
-void addOrchard(SceneBuilder& b) {
+void addTrees(SceneBuilder& b) {
   b.plane({0.5, 0.5, 0.16}, {1, 0.5, 0.2}, {0.5, 0, 0.16}, kHedge, kCoarse_px);
   b.plane({0.5, 0.62, 0.22}, {1, 0.62, 0.22}, {0.5, 1, 0.6}, kMeadow, kMiddle_px);
   for (const double x : {0.17, 0.49, 0.83}) addTree(b, x, b.between(0.45, 0.65));
@@ -204,7 +201,7 @@ struct NamedScene {
   void (*add)(SceneBuilder&);
 };
 constexpr NamedScene kScenes[] = {
-    {"boxes", addBoxes}, {"orchard", addOrchard}, {"planes", addPlanes}, {"spheres", addSpheres}};
+    {"boxes", addBoxes}, {"planes", addPlanes}, {"spheres", addSpheres}, {"trees", addTrees}};
 
 void requireRange(const char* name, int value, int smallest, int largest) {
   if (value < smallest || value > largest)
@@ -222,15 +219,25 @@ std::vector<std::string> sceneNames() {
 
 SceneDescription namedScene(std::string_view name, std::uint64_t seed, int width, int height,
                             int num_disparities) {
+  SceneDescription cameras;
+  cameras.width = width;
+  cameras.height = height;
+  cameras.focal_px = width;  // a horizontal field of view of 53 degrees
+  cameras.baseline_m = 0.12;
+  return namedScene(name, seed, cameras, num_disparities);
+}
+
+SceneDescription namedScene(std::string_view name, std::uint64_t seed, const SceneDescription& cameras,
+                            int num_disparities) {
   constexpr int kSmallestSide = 16, kLargestSide = 8192, kFewestDisparities = 8;
-  requireRange("width", width, kSmallestSide, kLargestSide);
-  requireRange("height", height, kSmallestSide, kLargestSide);
-  if (num_disparities == 0) num_disparities = std::max(kFewestDisparities, width / 10);
-  requireRange("num_disparities", num_disparities, kFewestDisparities, width / 2);
+  requireRange("width", cameras.width, kSmallestSide, kLargestSide);
+  requireRange("height", cameras.height, kSmallestSide, kLargestSide);
+  if (num_disparities == 0) num_disparities = std::max(kFewestDisparities, cameras.width / 10);
+  requireRange("num_disparities", num_disparities, kFewestDisparities, cameras.width / 2);
   std::string allowed;
   for (const NamedScene& scene : kScenes) {
     if (name == scene.name) {
-      SceneBuilder builder(seed, width, height, num_disparities);
+      SceneBuilder builder(seed, cameras, num_disparities);
       scene.add(builder);
       return builder.take();
     }

@@ -1,7 +1,6 @@
 #include "datasets/render.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -9,216 +8,141 @@
 
 #include "core/parallel.h"
 #include "datasets/hash.h"
+#include "datasets/rendering/daylight.h"
+#include "datasets/rendering/paint.h"
+#include "datasets/rendering/picture_rays.h"
+#include "datasets/rendering/ray_grid.h"
+#include "datasets/rendering/solid.h"
 
 namespace pomona {
 namespace {
 
 using cv::Vec3d;
 
-constexpr double kNowhere = std::numeric_limits<double>::infinity();
-constexpr double kNearest_m = 1e-6, kFarthest_m = 1e6;  // outside, a ray meets nothing
 constexpr double kFinestCell_m = 1e-6;
 
-// A surface with everything that does not depend on the ray worked out.
-struct Solid {
-  Shape shape;
-  Vec3d center, normal;
-  Vec3d dual_u, dual_v;  // (P - center) . dual_u is the coordinate a of P = center + a u + b v
-  double radius_m;
-  Paint paint;
-  std::uint64_t seed;
-
-  Solid(const Surface& s, std::uint64_t paint_seed)
-      : shape(s.shape),
-        center(s.center),
-        normal(s.u.cross(s.v)),
-        radius_m(s.radius_m),
-        paint(s.paint),
-        seed(paint_seed) {
-    const double area2 = normal.dot(normal);
-    if (shape == Shape::kSphere || area2 == 0) return;
-    dual_u = s.v.cross(normal) * (1 / area2);
-    dual_v = normal.cross(s.u) * (1 / area2);
-  }
-
-  // Depth Z at which the ray origin + Z * direction (direction.z = 1) meets this surface first.
-  double depthAlong(const Vec3d& origin, const Vec3d& direction) const {
-    const Vec3d from_center = origin - center;
-    if (shape == Shape::kSphere) {
-      const double a = direction.dot(direction);
-      const double b = direction.dot(from_center);
-      const double discriminant = b * b - a * (from_center.dot(from_center) - radius_m * radius_m);
-      const double depth = discriminant >= 0 ? (-b - std::sqrt(discriminant)) / a : kNowhere;
-      return depth > kNearest_m && depth < kFarthest_m ? depth : kNowhere;
-    }
-    const double along_normal = normal.dot(direction);
-    const double depth = along_normal != 0 ? -normal.dot(from_center) / along_normal : kNowhere;
-    if (!(depth > kNearest_m && depth < kFarthest_m)) return kNowhere;
-    if (shape == Shape::kPlane) return depth;
-    const Vec3d p = from_center + direction * depth;
-    const double a = p.dot(dual_u), b = p.dot(dual_v);
-    const bool inside = shape == Shape::kEllipse ? a * a + b * b <= 1 : std::abs(a) <= 1 && std::abs(b) <= 1;
-    return inside ? depth : kNowhere;
-  }
-
-  // Lambert's law with a light above and behind the cameras' left shoulder; on spheres only, for their
-  // roundness.
-  double shade(const Vec3d& point) const {
-    if (shape != Shape::kSphere) return 1;
-    const Vec3d towards_light(-0.48, -0.6, -0.64);
-    return 0.45 + 0.55 * std::max(0.0, (point - center).dot(towards_light) / radius_m);
-  }
-
-  Vec3d colorAt(const Vec3d& point) const;
-};
-
-// Random values on the integer lattice, blended by 3t^2 - 2t^3 along each axis.
-double valueNoise(const Vec3d& p, std::uint64_t seed) {
-  std::array<std::array<std::uint64_t, 2>, 3> corner;
-  std::array<double, 3> t;
-  constexpr std::array<std::uint64_t, 3> kStep = {0x9e3779b97f4a7c15u, 0xc2b2ae3d27d4eb4fu,
-                                                  0x165667b19e3779f9u};
-  for (int axis = 0; axis < 3; ++axis) {
-    const double floor = std::floor(p[axis]);
-    const auto cell = static_cast<std::uint64_t>(static_cast<std::int64_t>(floor));
-    corner[axis] = {cell * kStep[axis], (cell + 1) * kStep[axis]};
-    const double f = p[axis] - floor;
-    t[axis] = f * f * (3 - 2 * f);
-  }
-  const auto alongX = [&](int y, int z) {
-    const std::uint64_t base = seed + corner[1][y] + corner[2][z];
-    const double a = unitInterval(hash(base + corner[0][0])), b = unitInterval(hash(base + corner[0][1]));
-    return a + t[0] * (b - a);
-  };
-  const auto alongY = [&](int z) { return alongX(0, z) + t[1] * (alongX(1, z) - alongX(0, z)); };
-  return alongY(0) + t[2] * (alongY(1) - alongY(0));
+std::vector<Solid> solidsOf(const SceneDescription& scene) {
+  std::vector<Solid> solids;
+  solids.reserve(scene.surfaces.size());
+  for (std::size_t i = 0; i < scene.surfaces.size(); ++i)
+    solids.emplace_back(scene.surfaces[i], hash(scene.seed * 0x2545f4914f6cdd1du + i));
+  return solids;
 }
 
-Vec3d Solid::colorAt(const Vec3d& point) const {
-  constexpr int kOctaves = 3;
-  constexpr double kGain = 0.8;  // each octave's amplitude relative to the one before: rich in fine detail
-  Vec3d p = (point - center) * (1 / paint.cell_m);
-  double sum = 0, weight = 1, total = 0;
-  for (int octave = 0; octave < kOctaves; ++octave, weight *= kGain, p *= 2) {
-    sum += weight * (valueNoise(p, seed + octave) - 0.5);
-    total += weight;
-  }
-  const double mix =
-      std::clamp(0.5 + 1.8 * sum / total, 0.0, 1.0);  // the sum of octaves seldom leaves +-0.28
-  return (paint.first_bgr + (paint.second_bgr - paint.first_bgr) * mix) * shade(point);
+PictureRays raysOf(const SceneDescription& scene, View view, int threads) {
+  const bool right = view == View::kRight;
+  return {cv::Size(scene.width, scene.height), scene.focal_px,
+          principalOf(scene) + cv::Vec2d(right ? scene.doffs_px : 0, 0),
+          right ? scene.right_camera : scene.left_camera, threads};
 }
 
-struct Hit {
-  const Solid* solid = nullptr;
-  double depth = kNowhere;
+// One of the two cameras: where its pixels look, and what they may see.
+struct Eye {
+  PictureRays rays;
+  RayGrid grid;
+
+  Eye(const SceneDescription& scene, std::span<const Solid> solids, View view, int threads)
+      : rays(raysOf(scene, view, threads)),
+        grid(solids, {view == View::kRight ? scene.baseline_m : 0, 0, 0}, cv::Matx33d::eye(), rays.range(),
+             {scene.width / kCell_px + 1, scene.height / kCell_px + 1}, RayGrid::Beyond::kNothing) {}
+
+  static constexpr int kCell_px = 5;
 };
 
 class Renderer {
  public:
-  explicit Renderer(const SceneDescription& scene)
+  Renderer(const SceneDescription& scene, int threads)
       : scene_(scene),
-        cx_((scene.width - 1) / 2.0),
-        cy_((scene.height - 1) / 2.0),
-        solids_of_row_(scene.height) {
-    solids_.reserve(scene.surfaces.size());
-    for (std::size_t i = 0; i < scene.surfaces.size(); ++i)
-      solids_.emplace_back(scene.surfaces[i], hash(scene.seed * 0x2545f4914f6cdd1du + i));
-    for (std::size_t i = 0; i < solids_.size(); ++i) addToRows(solids_[i], scene.surfaces[i]);
+        threads_(threads),
+        solids_(solidsOf(scene)),
+        left_(scene, solids_, View::kLeft, threads),
+        right_(scene, solids_, View::kRight, threads) {
+    if (scene.sun) daylight_.emplace(solids_);
   }
 
-  RenderedView view(bool right) const {
+  RenderedView view(View which, const CameraEffects& effects) const {
     const cv::Size size(scene_.width, scene_.height);
-    RenderedView view{cv::Mat(size, CV_MAKETYPE(scene_.bits == 8 ? CV_8U : CV_16U, scene_.channels)),
-                      cv::Mat(size, CV_32FC1), cv::Mat(size, CV_8UC1)};
-    parallelStrips(availableThreads(), scene_.height, 4, [&](int begin, int end) {
+    cv::Mat light(size, CV_64FC3);
+    RenderedView view{{}, cv::Mat(size, CV_32FC1), cv::Mat(size, CV_8UC1), cv::Mat(size, CV_32SC1)};
+    const Eye& eye = which == View::kRight ? right_ : left_;
+    parallelStrips(threads_, scene_.height, 4, [&](int begin, int end) {
       for (int y = begin; y < end; ++y)
         for (int x = 0; x < scene_.width; ++x) {
-          storeColor(meanColor(x, y, right), view.image, y, x);
-          storeGeometry(right, view, y, x);
+          light.at<Vec3d>(y, x) = meanColor(eye, x, y);
+          storeGeometry(which, view, y, x);
         }
     });
+    view.image = develop(light, effects, which, scene_.channels, scene_.bits, threads_);
     return view;
   }
 
  private:
-  Vec3d origin(bool right) const { return {right ? scene_.baseline_m : 0, 0, 0}; }
-  Vec3d direction(double x, double y) const {
-    return {(x - cx_) / scene_.focal_px, (y - cy_) / scene_.focal_px, 1};
+  Vec3d colorAlong(const Eye& eye, const Vec3d& along) const {
+    const Hit hit = eye.grid.firstHit(along);
+    if (!hit.solid) return {0, 0, 0};
+    const Vec3d point = eye.grid.origin() + along * hit.depth;
+    const double light = daylight_ ? daylight_->at(*hit.solid, point, along) : studioLight(*hit.solid, point);
+    return paintAt(*hit.solid, point, hit.depth / scene_.focal_px) * light;
   }
 
-  // Both cameras see a point in the same row, so each row has to look only at the surfaces that can reach it:
-  // those whose bounding sphere's bounding box, seen in perspective, does.
-  void addToRows(const Solid& solid, const Surface& s) {
-    const double radius =
-        s.shape == Shape::kSphere ? s.radius_m : std::sqrt(s.u.dot(s.u)) + std::sqrt(s.v.dot(s.v));
-    const double near = solid.center[2] - radius, far = solid.center[2] + radius;
-    double top = 0, bottom = scene_.height - 1;
-    if (s.shape != Shape::kPlane && near > kNearest_m) {
-      const double highest = solid.center[1] - radius, lowest = solid.center[1] + radius;
-      const auto row = [&](double height, double depth) { return cy_ + scene_.focal_px * height / depth; };
-      top = std::floor(std::min(row(highest, near), row(highest, far))) - 1;
-      bottom = std::ceil(std::max(row(lowest, near), row(lowest, far))) + 1;
-    }
-    const auto clamped = [&](double y) { return static_cast<int>(std::clamp<double>(y, 0, scene_.height)); };
-    for (int y = clamped(top); y < clamped(bottom + 1); ++y) solids_of_row_[y].push_back(&solid);
-  }
-
-  Hit firstHit(int row, const Vec3d& from, const Vec3d& along) const {
-    Hit hit;
-    for (const Solid* solid : solids_of_row_[row])
-      if (const double depth = solid->depthAlong(from, along); depth < hit.depth) hit = {solid, depth};
-    return hit;
-  }
-
-  Vec3d meanColor(int x, int y, bool right) const {
+  Vec3d meanColor(const Eye& eye, int x, int y) const {
     constexpr int kSide = 4;
     Vec3d sum(0, 0, 0);
     for (int j = 0; j < kSide; ++j)
-      for (int i = 0; i < kSide; ++i) {
-        const Vec3d along = direction(x + (i + 0.5) / kSide - 0.5, y + (j + 0.5) / kSide - 0.5);
-        const Hit hit = firstHit(y, origin(right), along);
-        if (hit.solid) sum += hit.solid->colorAt(origin(right) + along * hit.depth);
-      }
+      for (int i = 0; i < kSide; ++i)
+        sum += colorAlong(eye, eye.rays.taken(x, y, (i + 0.5) / kSide - 0.5, (j + 0.5) / kSide - 0.5));
     return sum * (1.0 / (kSide * kSide));
   }
 
-  void storeColor(const Vec3d& bgr, cv::Mat& image, int y, int x) const {
-    const double gray = 0.114 * bgr[0] + 0.587 * bgr[1] + 0.299 * bgr[2];
-    for (int c = 0; c < scene_.channels; ++c) {
-      const double value = std::clamp(scene_.channels == 1 ? gray : bgr[c], 0.0, 255.0);
-      if (scene_.bits == 8)
-        image.ptr<std::uint8_t>(y)[x * scene_.channels + c] = static_cast<std::uint8_t>(value + 0.5);
-      else
-        image.ptr<std::uint16_t>(y)[x * scene_.channels + c] = static_cast<std::uint16_t>(value * 257 + 0.5);
-    }
-  }
-
-  void storeGeometry(bool right, RenderedView& view, int y, int x) const {
+  void storeGeometry(View which, RenderedView& view, int y, int x) const {
     constexpr std::uint8_t kNothing = 0, kOccluded = 128, kVisible = 255;
-    const Vec3d along = direction(x, y);
-    const Hit hit = firstHit(y, origin(right), along);
+    const bool right = which == View::kRight;
+    const Eye &here = right ? right_ : left_, &there = right ? left_ : right_;
+    const Hit hit = here.grid.firstHit(here.rays.ideal(x, y));
     if (!hit.solid) {
       view.disparity.at<float>(y, x) = std::numeric_limits<float>::quiet_NaN();
       view.mask.at<std::uint8_t>(y, x) = kNothing;
+      view.surface.at<int>(y, x) = -1;
       return;
     }
-    const double disparity = scene_.focal_px * scene_.baseline_m / hit.depth;
+    const double disparity = scene_.focal_px * scene_.baseline_m / hit.depth - scene_.doffs_px;
     const double other_x = right ? x + disparity : x - disparity;
-    const double blocked = firstHit(y, origin(!right), direction(other_x, y)).depth;
     const bool inside = other_x >= -0.5 && other_x < scene_.width - 0.5;
-    const bool visible = inside && blocked >= hit.depth * (1 - 1e-9);
+    const bool visible =
+        inside && there.grid.firstHit(there.rays.ideal(other_x, y)).depth >= hit.depth * (1 - 1e-9);
     view.disparity.at<float>(y, x) = static_cast<float>(disparity);
     view.mask.at<std::uint8_t>(y, x) = visible ? kVisible : kOccluded;
+    view.surface.at<int>(y, x) = static_cast<int>(hit.solid - solids_.data());
   }
 
   const SceneDescription& scene_;
-  double cx_, cy_;
+  int threads_;
   std::vector<Solid> solids_;
-  std::vector<std::vector<const Solid*>> solids_of_row_;
+  Eye left_, right_;
+  std::optional<Daylight> daylight_;
 };
 
 void require(bool good, const std::string& message) {
   if (!good) throw std::invalid_argument("scene: " + message);
+}
+
+void validate(const Surface& s) {
+  const double squares = s.center.dot(s.center) + s.u.dot(s.u) + s.v.dot(s.v) + s.radius_m * s.radius_m +
+                         s.bend_u_m * s.bend_u_m + s.bend_v_m * s.bend_v_m;
+  require(std::isfinite(squares), "a surface has a coordinate that is not finite");
+  const Vec3d normal = s.u.cross(s.v);
+  const bool round = s.shape == Shape::kSphere || s.shape == Shape::kSpheroid || s.shape == Shape::kBranch;
+  const bool has_axis = s.shape == Shape::kSphere || s.v.dot(s.v) > 0;
+  require(
+      round ? s.radius_m > 0 && has_axis : normal.dot(normal) > 0,
+      "a surface without extent: a sphere, a spheroid and a branch need a radius_m > 0, the latter two an "
+      "axis v, other shapes u and v that are not parallel");
+  constexpr double kRightAngle = 1e-6;
+  require(s.shape != Shape::kLeaf ||
+              std::abs(s.u.dot(s.v)) <= kRightAngle * std::sqrt(s.u.dot(s.u) * s.v.dot(s.v)),
+          "a leaf's u and v must be at right angles");
+  require(s.taper >= -1 && s.taper <= 1, "taper is " + std::to_string(s.taper) + "; allowed: -1 to 1");
+  require(s.paint.cell_m >= kFinestCell_m, "paint.cell_m must be at least 1e-6 m");
 }
 
 void validate(const SceneDescription& scene) {
@@ -233,32 +157,59 @@ void validate(const SceneDescription& scene) {
           "channels is " + std::to_string(scene.channels) + "; allowed: 1 or 3");
   require(scene.bits == 8 || scene.bits == 16,
           "bits is " + std::to_string(scene.bits) + "; allowed: 8 or 16");
-  for (const Surface& s : scene.surfaces) {
-    const Vec3d normal = s.u.cross(s.v);
-    const double squares = s.center.dot(s.center) + s.u.dot(s.u) + s.v.dot(s.v) + s.radius_m * s.radius_m;
-    require(std::isfinite(squares), "a surface has a coordinate that is not finite");
-    require(s.shape == Shape::kSphere ? s.radius_m > 0 : normal.dot(normal) > 0,
-            "a surface without extent: a sphere needs a radius_m > 0, other shapes u and v that are not "
-            "parallel");
-    require(s.paint.cell_m >= kFinestCell_m, "paint.cell_m must be at least 1e-6 m");
-  }
+  for (const Surface& surface : scene.surfaces) validate(surface);
 }
 
-}  // namespace
-
-RenderedPair render(const SceneDescription& scene) {
-  validate(scene);
+StereoCalibration calibrationOf(const SceneDescription& scene) {
   StereoCalibration calibration;
   calibration.focal_px = scene.focal_px;
-  calibration.cx_px = (scene.width - 1) / 2.0;
-  calibration.cy_px = (scene.height - 1) / 2.0;
+  calibration.cx_px = principalOf(scene)[0];
+  calibration.cy_px = principalOf(scene)[1];
   calibration.baseline_m = scene.baseline_m;
+  calibration.doffs_px = scene.doffs_px;
   calibration.width = scene.width;
   calibration.height = scene.height;
   calibration.num_disparities = scene.num_disparities;
   calibration.validate();
-  const Renderer renderer(scene);
-  return {renderer.view(false), renderer.view(true), calibration};
+  return calibration;
+}
+
+}  // namespace
+
+cv::Vec2d principalOf(const SceneDescription& scene) {
+  return scene.principal_px.value_or(cv::Vec2d((scene.width - 1) / 2.0, (scene.height - 1) / 2.0));
+}
+
+RenderedPair render(const SceneDescription& scene, const CameraEffects& effects, int threads) {
+  validate(scene);
+  effects.validate();
+  const StereoCalibration calibration = calibrationOf(scene);
+  const Renderer renderer(scene, threads > 0 ? threads : availableThreads());
+  return {renderer.view(View::kLeft, effects), renderer.view(View::kRight, effects), calibration};
+}
+
+Outline outlineOf(const SceneDescription& scene, int surface) {
+  const Solid solid(scene.surfaces.at(surface), 0);
+  const Bounds bounds = solid.bounds();
+  const cv::Vec2d principal = principalOf(scene);
+  const auto range = [&](int axis) {
+    const auto at = [&](double p, double z) { return p / z * scene.focal_px + principal[axis]; };
+    const double low = bounds.low[axis], high = bounds.high[axis];
+    const double near = bounds.low[2], far = bounds.high[2];
+    return cv::Range(static_cast<int>(std::floor(std::min(at(low, near), at(low, far)))),
+                     static_cast<int>(std::ceil(std::max(at(high, near), at(high, far)))) + 1);
+  };
+  Outline outline;
+  if (!(bounds.low[2] > 0)) return outline;
+  const cv::Range columns = range(0), rows = range(1);
+  for (int y = rows.start; y < rows.end; ++y)
+    for (int x = columns.start; x < columns.end; ++x) {
+      const Vec3d along((x - principal[0]) / scene.focal_px, (y - principal[1]) / scene.focal_px, 1);
+      if (solid.depthAlong({0, 0, 0}, along) == kNowhere) continue;
+      ++outline.pixels;
+      outline.box_px |= cv::Rect(x, y, 1, 1);
+    }
+  return outline;
 }
 
 }  // namespace pomona

@@ -1,6 +1,6 @@
-// The readers behind readRig(), one per format. Each takes a file's text (`path` is for messages) and throws
-// std::runtime_error naming path, field, value and what is allowed. What concerns every format alike (a
-// plausible baseline, a consistent rig) is checked by readRig().
+// The readers behind readRig(), one per format, and the bytes behind writeRig(). Each takes a file's text
+// (`path` is for messages) and throws std::runtime_error naming path, field, value and what is allowed. What
+// concerns every format alike (a plausible baseline, a consistent rig) is checked by readRig().
 #pragma once
 
 #include <string>
@@ -16,6 +16,10 @@ StereoRig rigFromOpenCv(const YamlFields& intrinsics, const YamlFields& extrinsi
 
 /// A pair of camera_info: the rig follows from the rectification, which such a file always states.
 StereoRig rigFromRos(const YamlFields& left, const YamlFields& right, double unit_m);
+
+/// The file that writeRig() writes for RigFormat::kPomona. Throws std::invalid_argument if `rig` is not
+/// valid.
+std::string encodeRig(const StereoRig& rig);
 
 /// camN's T_cn_cnm1 leads from camera N - 1 to camera N.
 StereoRig rigFromKalibr(const YamlFields& chain, const RigFileOptions& options, double unit_m);

@@ -93,6 +93,11 @@ void writeRos(const std::string& folder, const StereoRig& rig) {
 
 }  // namespace
 
+std::string encodeRig(const StereoRig& rig) {
+  rig.validate();
+  return encodeOpenCv(rig);
+}
+
 void writeRig(const std::string& path, const StereoRig& rig, RigFormat format) {
   rig.validate();
   switch (format) {

@@ -57,7 +57,7 @@ TEST(Engine, FramesAfterTheFirstAllocateNothing) {
   GTEST_SKIP() << "allocations cannot be counted in this build";
 #endif
   const RenderedPair first = render(namedScene("boxes", 1, 160, 100, 30));
-  const RenderedPair other = render(namedScene("orchard", 2, 160, 100, 30));
+  const RenderedPair other = render(namedScene("trees", 2, 160, 100, 30));
   for (const char* preset : {"fast", "balanced", "quality", "paper"})
     for (OutputMode mode : {OutputMode::kSparse, OutputMode::kDense})
       for (int threads : {1, 3}) {

@@ -298,12 +298,41 @@ class GoodInput(CommandTest):
 
     def test_rendered_scene_is_complete_and_repeatable(self):
         for folder in ("a", "b"):
-            self.assert_accepted(self.run_command("render", "orchard", "--seed", "9", "--size", "48x32", "-o", folder))
+            self.assert_accepted(self.run_command("render", "trees", "--seed", "9", "--size", "48x32", "-o", folder))
         leaves = sorted(os.listdir(os.path.join(self.folder, "a")))
         self.assertEqual(leaves, ["calib.txt", "disp0GT.pfm", "disp1GT.pfm", "im0.png", "im1.png", "mask0nocc.png",
                                   "mask1nocc.png"])
         for leaf in leaves:
             self.assertEqual(self.bytes_of("a", leaf), self.bytes_of("b", leaf), leaf)
+
+    def test_rendered_orchard_lists_its_fruits(self):
+        self.assert_accepted(self.run_command(
+            "render", "orchard", "--rig", "seed-003-b60", "--size", "96x54", "--distance", "1..1.2", "--fruits", "4",
+            "--shot-noise", "3", "--read-noise", "1", "--blur", "0.5", "--vignetting", "0.2", "--exposure", "0.9",
+            "--right-gain", "1.05", "--right-shift", "0.5", "--lens", "--bits", "16", "-o", "orchard"))
+        self.assertEqual(read_png_header(os.path.join(self.folder, "orchard", "im0.png"))[:3], (96, 54, 16))
+        self.assertEqual(read_png_header(os.path.join(self.folder, "orchard", "fruits0.png"))[:3], (96, 54, 16))
+        fruits = json.loads(self.bytes_of("orchard", "fruits.json"))["fruits"]
+        self.assertEqual([fruit["id"] for fruit in fruits], [1, 2, 3, 4])
+        for fruit in fruits:
+            self.assertTrue(1 <= fruit["center_m"][2] <= 1.2)
+            self.assertAlmostEqual(fruit["distance_m"], math.dist(fruit["center_m"], (0, 0, 0)))
+            self.assertTrue(0.02 < fruit["distance_m"] - fruit["near_distance_m"] <= fruit["radius_m"])
+            self.assertTrue(0 <= fruit["visible_share"] <= 1)
+        # What was written are views of the rig beside them, which rectify to the truth's geometry.
+        self.assert_accepted(self.run_command("rectify", "orchard/im0.png", "orchard/im1.png", "--rig",
+                                              "orchard/rig.yml", "-o", "rectified"))
+
+    def test_rendered_storefront_lists_its_signs(self):
+        self.assert_accepted(self.run_command("render", "storefront", "--size", "96x54", "--walls", "1", "--yaw", "-30",
+                                              "--distance", "3", "-o", "street"))
+        signs = json.loads(self.bytes_of("street", "signs.json"))["signs"]
+        self.assertEqual(len(signs), 3)
+        for sign in signs:
+            self.assertEqual(sign["yaw_deg"], -30)
+            left, top, width, height = sign["box_px"]
+            for x, y in sign["corners_px"]:
+                self.assertTrue(left - 1 <= x <= left + width and top - 1 <= y <= top + height)
 
 
 class BadViews(CommandTest):
@@ -408,7 +437,21 @@ class BadOptions(CommandTest):
         for arguments, part in ((("forest",), "forest"), (("boxes", "--size", "640"), "640"),
                                 (("boxes", "--size", "8x8"), "width is 8"),
                                 (("boxes", "--size", "64x99999"), "height is 99999"),
-                                (("boxes", "--disparities", "999"), "999")):
+                                (("boxes", "--disparities", "999"), "999"),
+                                (("boxes", "--distance", "1..2"), "--distance is no option of the scene 'boxes'"),
+                                (("boxes", "--lens"), "--lens needs --rig"),
+                                (("orchard", "--walls", "2"), "--walls is no option"),
+                                (("chessboard", "--rig", "seed-003", "--blur", "1"), "--blur is no option"),
+                                (("orchard", "--rig", "seed-004"), "seed-004"),
+                                (("orchard", "--distance", "near"), "--distance is 'near'"),
+                                (("orchard", "--distance", "0.1..1"), "nearest_m is 0.1; allowed: 0.3 to 10"),
+                                (("orchard", "--distance", "1..0.5"), "farthest_m is 0.5; allowed: 1 to 10"),
+                                (("orchard", "--fruits", "201"), "fruits is 201"),
+                                (("orchard", "--blur", "much"), "--blur"),
+                                (("orchard", "--size", "64x36", "--blur", "11"), "blur_px is 11; allowed: 0 to 10"),
+                                (("orchard", "--size", "64x36", "--bits", "12"), "bits is 12"),
+                                (("orchard", "--size", "8x8"), "width is 8; allowed: 16 to 8192"),
+                                (("storefront", "--yaw", "-70..0"), "least_yaw_deg is -70")):
             self.assert_refused(self.run_command("render", *arguments, "-o", "scene"), part)
         self.put("file", "x")
         self.assert_refused(self.run_command("render", "boxes", "--size", "16x16", "-o", "file"), "file")

@@ -80,7 +80,7 @@ Score score(const cv::Mat& disparity, const cv::Mat& truth, const cv::Mat& use =
 }
 
 TEST(Engine, SameBytesForEveryThreadCountAndInstructionSet) {
-  const RenderedPair pair = scene("orchard", 131, 60, 30);
+  const RenderedPair pair = scene("trees", 131, 60, 30);
   for (const char* preset : {"fast", "balanced", "quality", "paper"})
     for (OutputMode mode : {OutputMode::kSparse, OutputMode::kDense}) {
       Options o = makeOptions(preset, 37, mode);
@@ -130,7 +130,7 @@ TEST(Engine, FindsTheSurfacesOfRenderedScenes) {
     double sparse_wrong, visible_bad, all_bad;
   };
   for (const Bounds& b : {Bounds{"planes", 0.02, 0.03, 0.04}, Bounds{"boxes", 0.05, 0.06, 0.10},
-                          Bounds{"spheres", 0.05, 0.06, 0.10}, Bounds{"orchard", 0.12, 0.15, 0.22}}) {
+                          Bounds{"spheres", 0.05, 0.06, 0.10}, Bounds{"trees", 0.12, 0.15, 0.22}}) {
     const RenderedPair pair = scene(b.scene, 320, 200, 40);
     const cv::Mat &left = pair.left.image, &right = pair.right.image, &truth = pair.left.disparity;
     for (const char* preset : {"fast", "balanced", "quality"}) {
@@ -315,7 +315,7 @@ TEST(Engine, MonotoneChangesOfIntensityLeaveACensusMapUnchanged) {
 }
 
 TEST(Engine, RegionsOfLargerImagesAreReadInPlace) {
-  const RenderedPair pair = scene("orchard", 150, 80, 24);
+  const RenderedPair pair = scene("trees", 150, 80, 24);
   const Options o = makeOptions("balanced", 30);
   const StereoResult want = computeDisparity(pair.left.image, pair.right.image, o);
   cv::Mat big_left(100, 200, CV_8UC3, cv::Scalar(1, 2, 3)),

@@ -9,6 +9,9 @@
 #include <stdexcept>
 
 #include "datasets/named_scenes.h"
+#include "datasets/rendering/named_rigs.h"
+#include "datasets/rendering/orchard.h"
+#include "datasets/rendering/storefront.h"
 
 namespace pomona {
 namespace {
@@ -127,10 +130,23 @@ TEST(Render, ExtremePlacesAreHarmless) {
                   10 * 15 / 100.0f);  // the ground, 1 m below: Z = 100 / 15
 }
 
+// The named scenes, and those that need a rig.
+std::vector<std::string> allScenes() {
+  std::vector<std::string> names = sceneNames();
+  names.insert(names.end(), {"orchard", "storefront"});
+  return names;
+}
+SceneDescription anyScene(const std::string& name, int width, int height) {
+  const SceneDescription cameras = sceneFor(resized(namedRig("seed-003"), width, height));
+  if (name == "orchard") return orchard(cameras, {.seed = 7, .nearest_m = 1, .farthest_m = 1.2}).scene;
+  if (name == "storefront") return storefront(cameras, {.seed = 7}).scene;
+  return namedScene(name, 7, width, height, width / 10);
+}
+
 // Large enough for thin things to be seen; rendered once for the tests that compare the views.
 const RenderedPair& renderedPair(const std::string& name) {
   static std::map<std::string, RenderedPair> pairs;
-  if (!pairs.contains(name)) pairs[name] = render(namedScene(name, 7, 320, 240, 32));
+  if (!pairs.contains(name)) pairs[name] = render(anyScene(name, 320, 240));
   return pairs[name];
 }
 
@@ -147,7 +163,7 @@ Lookup lookUp(double x, int width) {
 // Visible pixels meet a pixel of the other view with their own disparity, and hidden ones meet something
 // nearer or leave the image. Interpolated at whole pixels, this may fail beside depth edges only.
 void checkVisibility(const RenderedView& here, const RenderedView& there, int direction,
-                     const std::string& label) {
+                     double least_agreement, const std::string& label) {
   int visible = 0, agree = 0, hidden = 0, explained = 0;
   for (int y = 0; y < here.disparity.rows; ++y)
     for (int x = 0; x < here.disparity.cols; ++x) {
@@ -165,16 +181,17 @@ void checkVisibility(const RenderedView& here, const RenderedView& there, int di
       }
     }
   EXPECT_GT(visible, here.disparity.cols * here.disparity.rows / 2) << label;
-  EXPECT_GT(fraction(agree, visible), 0.93) << label;
+  EXPECT_GT(fraction(agree, visible), least_agreement) << label;
   EXPECT_GT(hidden, 0) << label;
   EXPECT_GT(fraction(explained, hidden), 0.98) << label;
 }
 
-TEST(NamedScenes, DisparitiesAndMasksOfBothViewsAgree) {
-  for (const std::string& name : sceneNames()) {
+TEST(Scenes, DisparitiesAndMasksOfBothViewsAgree) {
+  for (const std::string& name : allScenes()) {
     const RenderedPair& pair = renderedPair(name);
-    checkVisibility(pair.left, pair.right, -1, name + " left");
-    checkVisibility(pair.right, pair.left, 1, name + " right");
+    const double least_agreement = name == "orchard" ? 0.8 : 0.93;  // most of its leaves are edge
+    checkVisibility(pair.left, pair.right, -1, least_agreement, name + " left");
+    checkVisibility(pair.right, pair.left, 1, least_agreement, name + " right");
   }
 }
 
@@ -196,8 +213,8 @@ double warpDifference(const RenderedPair& pair, double shift) {
   return sum / count;
 }
 
-TEST(NamedScenes, WarpingByTheTrueDisparityExplainsTheOtherView) {
-  for (const std::string& name : sceneNames()) {
+TEST(Scenes, WarpingByTheTrueDisparityExplainsTheOtherView) {
+  for (const std::string& name : allScenes()) {
     const RenderedPair& pair = renderedPair(name);
     const double right = warpDifference(pair, 0);
     EXPECT_LT(right, 5) << name;
@@ -226,11 +243,14 @@ TEST(NamedScenes, AreTheSameEverywhere) {
     const char* name;
     std::uint64_t hash;
   } golden[] = {{"boxes", 0xc26a1677743b1327u},
-                {"orchard", 0x3ee0c33578ea8bc2u},
+                {"trees", 0x3ee0c33578ea8bc2u},
                 {"planes", 0x416db12692efefb1u},
                 {"spheres", 0xe394bc5213c80250u}};
   for (const auto& scene : golden)
     EXPECT_EQ(fnv1a(render(namedScene(scene.name, 5, 96, 72, 16))), scene.hash) << scene.name;
+  for (const auto& [name, hash] :
+       {std::pair("orchard", 0xfcd21280e8b9f5cu), {"storefront", 0xdefb6c480c9f63c3u}})
+    EXPECT_EQ(fnv1a(render(anyScene(name, 96, 72))), hash) << name;
 }
 
 TEST(NamedScenes, SeedsDiffer) {

@@ -177,7 +177,7 @@ void print(const char* name, const Terms& fit) {
 int fit() {
   Cells cells, paper;
   cv::RNG random(7);
-  for (const char* name : {"planes", "spheres", "boxes", "orchard"})
+  for (const char* name : {"planes", "spheres", "boxes", "trees"})
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
       const RenderedPair pair = render(fadedScene(name, seed, random));
       const double noise = 0.8 * static_cast<double>(seed), blur_px = seed % 2 == 0 ? 0.7 : 0;

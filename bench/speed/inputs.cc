@@ -40,10 +40,10 @@ BenchmarkInputs::BenchmarkInputs(const std::string& folder) {
     description_ = "the real pair " + scene.filename().string();
   } else {
     constexpr int kWidth = 741, kHeight = 500, kDisparities = 64;
-    const RenderedPair pair = render(namedScene("orchard", 1, kWidth, kHeight, kDisparities));
+    const RenderedPair pair = render(namedScene("trees", 1, kWidth, kHeight, kDisparities));
     original_ = {pair.left.image, pair.right.image};
     largest_disparity_px_ = largestOf(pair.left.disparity);
-    description_ = "a RENDERED orchard, as " + folder + " holds no scene (scripts/get_samples motorcycle)";
+    description_ = "RENDERED trees, as " + folder + " holds no scene (scripts/get_samples motorcycle)";
   }
 }
 

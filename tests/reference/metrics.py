@@ -244,7 +244,7 @@ def main():
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
         comparison = Comparison(pomona, dump, folder)
-        for name in ("boxes", "spheres", "orchard"):
+        for name in ("boxes", "spheres", "trees"):
             comparison.run(pomona, "render", name, "-o", folder / name, "--size", "203x97")
             comparison.scene(folder / name)
         if scenes and scenes.is_dir():
