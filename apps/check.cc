@@ -40,7 +40,7 @@ void check(const CheckArguments& arguments) {
       row_check.measure(left, right, arguments.min_disparity, end - arguments.min_disparity, kReach_px);
   std::cout << "points    " << rows.points << " matched\n";
   if (std::isnan(rows.median_px)) {
-    std::cout << "rows      unknown: fewer than 12 points have a match within " << kReach_px
+    std::cout << "rows      unknown: fewer than 10 points have a match within " << kReach_px
               << " px of their row\n";
     return;
   }

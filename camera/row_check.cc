@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kColumns = 16, kRows = 10;  // one point from each cell of this grid
 constexpr int kBlock = 8;                 // side of the blocks compared there
-constexpr int kFewestPoints = 12;
+constexpr int kFewestPoints = 10;
 
 using Bytes = ImageView<const std::uint8_t>;
 
@@ -36,7 +36,7 @@ int absoluteDifference(Bytes a, int ax, int ay, Bytes b, int bx, int by) {
 // How well a block tells its place: the weaker one of its changes along x and along y, none of which counts
 // for much by itself, lest points gather at hot pixels.
 int texture(Bytes view, int x, int y) {
-  constexpr int kMostOfOne = 20;
+  constexpr int kMostOfOne = 40;
   int along_x = 0, along_y = 0;
   for (int row = y - 3; row < y + 3; ++row) {
     const std::uint8_t *p = view.row(row), *below = view.row(row + 1);
@@ -105,7 +105,7 @@ float sample(Bytes view, float x, float y) {
 bool settle(Bytes left, Bytes right, int x, int y, Place& place) {
   constexpr int kRadius = 5, kSide = 2 * kRadius + 1, kMostSteps = 5;
   constexpr float kFarthest = 3, kSettled = 0.03f, kLeastTexture = 8 * kSide * kSide;
-  constexpr float kMostOfOne = 0.2f;  // of the texture: no place may hang on a hot pixel
+  constexpr float kMostOfOne = 0.25f;  // of the texture: no place may hang on a hot pixel
   if (x < kRadius + 1 || y < kRadius + 1 || x + kRadius + 1 >= left.width || y + kRadius + 1 >= left.height)
     return false;
   std::array<float, kSide * kSide> value, gx, gy;

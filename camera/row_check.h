@@ -9,7 +9,7 @@ namespace pomona {
 
 struct RowOffsets {
   /// Median of y_right - y_left over the points: positive where the right view shows things lower. NaN if
-  /// fewer than 12 points could be matched.
+  /// fewer than 10 points could be matched.
   float median_px;
   /// The largest |y_right - y_left| in any corner of the image, by a plane fitted to the points: notices a
   /// camera that is turned, too. NaN where median_px is.

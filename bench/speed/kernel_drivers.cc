@@ -70,6 +70,21 @@ void runChecks(KernelMaterial& m, const KernelTables& tables) {
                  m.options.validation.speckle_step_px, m.speckle, tables.filters, 1);
 }
 
+void runTrust(KernelMaterial& m, const KernelTables& tables) {
+  MatchMaps& maps = m.trusted;
+  if (maps.disparity.width() == 0) {
+    maps.resize(m.size.width, m.size.height);
+    copyPixels<float>(m.dense.view(), maps.disparity);
+    copyPixels<float>(m.right_disparity.view(), maps.right_disparity);
+    for (int y = 0; y < m.size.height; ++y) {
+      std::fill_n(maps.margin.row(y), m.size.width, std::uint16_t{100});
+      std::fill_n(maps.curvature.row(y), m.size.width, std::uint16_t{100});
+      std::fill_n(maps.state.row(y), m.size.width, static_cast<std::uint8_t>(PixelState::kMeasured));
+    }
+  }
+  m.trust.estimate(maps, 8 * maximumCost(m.options.cost.cost), tables.filters, 1);
+}
+
 void runMedians(KernelMaterial& m, const KernelTables& tables) {
   for (int size : {3, 5})
     medianFilter(m.sparse_disparity.view(), m.disparity.view(), size, tables.filters, m.median, 1);
@@ -171,6 +186,7 @@ std::vector<KernelDriver> kernelDrivers() {
   constexpr double kQuarter = 1.0 / 16;
   std::vector<KernelDriver> drivers = matchDrivers();
   drivers.insert(drivers.end(), {{"checks", 1, runChecks},
+                                 {"trust", 1, runTrust},
                                  {"medians", 1, runMedians},
                                  {"bilateral-at-quarter", kQuarter, runBilateral},
                                  {"refinement", 1, runRefinement},

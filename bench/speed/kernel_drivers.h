@@ -8,6 +8,7 @@
 
 #include "bench/speed/inputs.h"
 #include "engine/input.h"
+#include "engine/trust.h"
 #include "filters/joint_bilateral.h"
 #include "filters/left_right.h"
 #include "filters/median.h"
@@ -57,6 +58,8 @@ struct KernelMaterial {
   Image<float> disparity, quarter_disparity, fusion_weight;
   Image<std::uint8_t> state, small;
   Image<std::uint16_t> small16;
+  MatchMaps trusted;
+  Trust trust;
   LeftRightScratch left_right;
   SpeckleScratch speckle;
   MedianScratch median;
