@@ -171,7 +171,7 @@ function scatter(width) {
       .filter((p) => p.figures[time] > 0 && p.figures[error] != null)
       .map((p) => ({method: p.method, x: Math.log10(p.figures[time]), y: p.figures[error]}));
   if (!points.length) return make("p", {}, "nothing to show");
-  const xs = points.map((p) => p.x), ys = points.map((p) => p.y), top = Math.max(...ys, 1e-3) * 1.12;
+  const xs = points.map((p) => p.x), top = Math.max(1e-3, reachOf(points.map((p) => [[p.x, p.y]])));
   const low = Math.min(...xs) - 0.25, high = Math.max(...xs) + 0.45;
   const {svg, toX, toY, box} = axes(width, 320,
       {low, high, ticks: logTicksOf(low, high), text: (t) => `${+(10 ** t).toPrecision(2)}`, label: "s/MP, log scale"},
@@ -181,11 +181,13 @@ function scatter(width) {
   if (front.length) svg.append(make("path", {
     d: `M${toX(front[0].x)} ${box.top}` + front.map((p) => `L${toX(p.x)} ${toY(p.y)}`).join("") + `H${box.right}`,
     fill: "none", class: "front"}));
-  const taken = points.map((p) => ({x: toX(p.x) - 6, y: toY(p.y) - 6, w: 12, h: 12}));
+  const shownY = (p) => toY(Math.min(p.y, top));  // what is far above the others, at the upper edge with its value
+  const nameOf = (p) => p.y > top ? `${p.method} ↑ ${text(p.y, column)}` : p.method;
+  const taken = points.map((p) => ({x: toX(p.x) - 6, y: shownY(p) - 6, w: 12, h: 12}));
   const shared = (p, q, x, w) => Math.max(0, Math.min(p[x] + p[w], q[x] + q[w]) - Math.max(p[x], q[x]));
   const covered = (p) => taken.reduce((sum, q) => sum + shared(p, q, "x", "w") * shared(p, q, "y", "h"), 0);
   for (const point of points) {
-    const px = toX(point.x), py = toY(point.y), w = point.method.length * 7.4, h = 13;
+    const px = toX(point.x), py = shownY(point), w = nameOf(point).length * 7.4, h = 13;
     const spots = [[9, -6], [-9 - w, -6], [-w / 2, -21], [-w / 2, 8], [9, 6], [9, -20], [-9 - w, 8], [-9 - w, -20],
                    [-w / 2, 22], [-w / 2, -36]];
     const places = spots.map(([dx, dy]) => ({x: px + dx, y: py + dy, w, h}));
@@ -195,7 +197,7 @@ function scatter(width) {
     taken.push(place);
     svg.append(make("circle", {cx: px, cy: py, r: 5, fill: colorOf(point.method)},
                     make("title", {}, `${point.method}: ${text(point.y, column)}, ${(10 ** point.x).toPrecision(3)} s/MP`)),
-               make("text", {class: "name", x: place.x, y: place.y + 11}, point.method));
+               make("text", {class: "name", x: place.x, y: place.y + 11}, nameOf(point)));
   }
   return front.length ? make("div", {}, svg, standing(front, points.filter((p) => !ours(p)))) : svg;
 }
