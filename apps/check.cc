@@ -10,9 +10,9 @@
 
 #include "apps/muted_stream.h"
 #include "apps/verbs.h"
-#include "apps/views.h"
 #include "camera/row_check.h"
-#include "datasets/image_file.h"
+#include "core/parallel.h"
+#include "datasets/scene_parts.h"
 #include "engine/input.h"
 #include "pomona/disparity.h"
 
@@ -24,28 +24,20 @@ struct CheckArguments {
   int min_disparity = 0, max_disparity = 0;
 };
 
-Image<std::uint8_t> readGray(const std::string& path) {
-  const MutedErrorStream muted;
-  const cv::Mat bgr = toBgr8(readImage(path));
-  Image<std::uint8_t> gray(bgr.cols, bgr.rows);
-  for (int y = 0; y < bgr.rows; ++y) grayFromBgr(bgr.ptr<std::uint8_t>(y), bgr.cols, gray.row(y));
-  return gray;
-}
-
 void check(const CheckArguments& arguments) {
-  const Image<std::uint8_t> left = readGray(arguments.left), right = readGray(arguments.right);
-  if (left.width() != right.width() || left.height() != right.height())
-    throw std::runtime_error(arguments.right + ": is " + std::to_string(right.width()) + "x" +
-                             std::to_string(right.height()) + "; the left image is " +
-                             std::to_string(left.width()) + "x" + std::to_string(left.height()));
+  const MutedErrorStream muted;
+  const auto [left_view, right_view] = readViews(arguments.left, arguments.right);
+  InputPair pair;  // gray, 8 bits, as matching sees it
+  pair.set(left_view, right_view, availableThreads());
+  const ImageView<const std::uint8_t> left = pair.views().left, right = pair.views().right;
   constexpr int kUsualShare = 4;  // of the width
   constexpr int kReach_px = 40;   // there is time
   const int end = arguments.max_disparity > arguments.min_disparity
                       ? arguments.max_disparity
-                      : arguments.min_disparity + std::max(16, left.width() / kUsualShare);
+                      : arguments.min_disparity + std::max(16, left.width / kUsualShare);
   RowCheck row_check;
-  const RowOffsets rows = row_check.measure(left.view(), right.view(), arguments.min_disparity,
-                                            end - arguments.min_disparity, kReach_px);
+  const RowOffsets rows =
+      row_check.measure(left, right, arguments.min_disparity, end - arguments.min_disparity, kReach_px);
   std::cout << "points    " << rows.points << " matched\n";
   if (std::isnan(rows.median_px)) {
     std::cout << "rows      unknown: fewer than 12 points have a match within " << kReach_px

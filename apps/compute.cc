@@ -11,8 +11,10 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "apps/compute_files.h"
+#include "apps/search_range.h"
 #include "apps/verbs.h"
 #include "pomona/engine.h"
 #include "pomona/evaluation.h"
@@ -33,12 +35,6 @@ struct ComputeArguments {
   bool timings = false;
 };
 
-struct SearchRange {
-  int min = 0;
-  int count = 0;
-  std::string source;  // where the upper end comes from
-};
-
 [[gnu::format(printf, 1, 2)]] void print(const char* format, ...) {
   std::array<char, 512> line;
   std::va_list values;
@@ -50,36 +46,6 @@ struct SearchRange {
 
 MemoryMode memoryMode(const std::string& name) {
   return name == "low" ? MemoryMode::kLow : name == "speed" ? MemoryMode::kSpeed : MemoryMode::kAutomatic;
-}
-
-SearchRange searchRange(const ComputeArguments& arguments, const ComputeInputs& inputs) {
-  const int width = inputs.left.cols;
-  const int ndisp = inputs.calibration ? inputs.calibration->num_disparities : 0;
-  SearchRange range{arguments.min_disparity, 0, ""};
-  std::int64_t count = 0;
-  if (arguments.max_disparity) {
-    range.source = "--max-disparity";
-    count = std::int64_t{*arguments.max_disparity} - range.min;
-  } else if (ndisp > 0) {
-    range.source = "ndisp of " + arguments.paths.calibration + arguments.paths.rig;
-    count = std::int64_t{ndisp} - range.min;
-  } else {
-    range.source = "estimate";
-    Options options;
-    options.min_disparity = range.min;
-    options.threads = arguments.threads;
-    options.isa = arguments.isa;
-    count = estimateNumDisparities(inputs.left, inputs.right, options, inputs.mask);
-  }
-  constexpr int kMostDisparities = 1024;
-  const int most = std::min(kMostDisparities, width);
-  if (count < 1 || count > most)
-    throw std::invalid_argument(range.source + ": the range from --min-disparity " +
-                                std::to_string(range.min) + " to below " + std::to_string(range.min + count) +
-                                " holds " + std::to_string(count) + " disparities; allowed: 1 to " +
-                                std::to_string(most) + " (the image is " + std::to_string(width) + " wide)");
-  range.count = static_cast<int>(count);
-  return range;
 }
 
 void printSummary(const ComputeArguments& arguments, const SearchRange& range, const StereoResult& result,
@@ -126,21 +92,26 @@ void printErrors(const DisparityErrors& errors) {
 }
 
 void compute(const ComputeArguments& arguments) {
+  if (arguments.min_confidence != 0 && arguments.mode != "sparse")
+    throw std::invalid_argument("--min-confidence: --mode is '" + arguments.mode +
+                                "'; allowed: sparse (a dense map keeps all pixels)");
   const ComputePaths& paths = arguments.paths;
-  if (!(paths.depth.empty() && paths.cloud.empty()) && paths.calibration.empty() && paths.rig.empty())
-    throw CLI::RequiresError(paths.depth.empty() ? "--cloud" : "--depth", "--calib or --rig");
+  for (const auto& [option, path] :
+       {std::pair{"--depth", &paths.depth}, {"--depth-sigma", &paths.depth_sigma}, {"--cloud", &paths.cloud}})
+    if (!path->empty() && paths.calibration.empty() && paths.rig.empty())
+      throw CLI::RequiresError(option, "--calib or --rig");
   checkOutputs(arguments.paths);
   const ComputeInputs inputs = readInputs(arguments.paths);
-  const SearchRange range = searchRange(arguments, inputs);
-
   Options options = Options::preset(arguments.preset);
+  options.threads = arguments.threads;
+  options.isa = arguments.isa;
+  const SearchRange range =
+      searchRange(paths, inputs, arguments.min_disparity, arguments.max_disparity, options);
   options.min_disparity = range.min;
   options.num_disparities = range.count;
   options.mode = arguments.mode == "sparse" ? OutputMode::kSparse : OutputMode::kDense;
   options.validation.min_confidence = arguments.min_confidence;
   options.memory = memoryMode(arguments.memory);
-  options.threads = arguments.threads;
-  options.isa = arguments.isa;
 
   StereoEngine engine(options);
   const auto start = std::chrono::steady_clock::now();
@@ -176,7 +147,10 @@ void addFileOptions(CLI::App& verb, ComputePaths& paths) {
                   "Standard deviation of the disparities (.pfm, pixels, inf unknown)");
   verb.add_option("--depth", paths.depth,
                   "Depth: metres (.pfm, inf unknown), or millimetres (16-bit .png, 0 unknown)");
-  verb.add_option("--cloud", paths.cloud, "Coloured point cloud in metres (.ply)");
+  verb.add_option("--depth-sigma", paths.depth_sigma,
+                  "Standard deviation of the depth (.pfm, metres, inf unknown)");
+  verb.add_option("--cloud", paths.cloud,
+                  "Coloured point cloud in metres: .ply, or organised as the image is: .pcd");
   verb.add_option("--error", paths.error,
                   "Picture of the error (.png): green 0, red 4 px and more, white no disparity")
       ->needs(ground_truth);

@@ -8,7 +8,7 @@
 
 #include "apps/muted_stream.h"
 #include "apps/views.h"
-#include "camera/ply.h"
+#include "camera/cloud_file.h"
 #include "camera/rectify.h"
 #include "core/parallel.h"
 #include "datasets/colorize.h"
@@ -65,8 +65,13 @@ std::string encodeDepth(const Frame& frame, const std::string& extension) {
   return extension == ".pfm" ? encodePfm(depth) : encodeDepthPng(depth);
 }
 
-std::string encodeCloud(const Frame& frame, const std::string&) {
-  return encodePly(frame.result.disparity, toBgr8(frame.inputs.left), *frame.inputs.calibration);
+std::string encodeDepthSigma(const Frame& frame, const std::string&) {
+  return encodePfm(depthSigma(frame.result.disparity, frame.result.sigma_px, *frame.inputs.calibration));
+}
+
+std::string encodeCloud(const Frame& frame, const std::string& extension) {
+  const auto encode = extension == ".pcd" ? encodePcd : encodePly;
+  return encode(frame.result.disparity, toBgr8(frame.inputs.left), *frame.inputs.calibration);
 }
 
 std::string encodeError(const Frame& frame, const std::string&) {
@@ -81,7 +86,8 @@ const std::vector<OutputKind>& outputKinds() {
       {"--confidence", &ComputePaths::confidence, {".png", ".pfm"}, encodeConfidence},
       {"--sigma", &ComputePaths::sigma, {".pfm"}, encodeSigma},
       {"--depth", &ComputePaths::depth, {".pfm", ".png"}, encodeDepth},
-      {"--cloud", &ComputePaths::cloud, {".ply"}, encodeCloud},
+      {"--depth-sigma", &ComputePaths::depth_sigma, {".pfm"}, encodeDepthSigma},
+      {"--cloud", &ComputePaths::cloud, {".ply", ".pcd"}, encodeCloud},
       {"--error", &ComputePaths::error, {".png"}, encodeError},
   };
   return kinds;

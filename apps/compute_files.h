@@ -15,7 +15,7 @@ namespace pomona {
 /// File names as given on the command line; empty where not given.
 struct ComputePaths {
   std::string left, right, mask, calibration, rig, ground_truth;
-  std::string disparity, color, state, confidence, sigma, depth, cloud, error;
+  std::string disparity, color, state, confidence, sigma, depth, depth_sigma, cloud, error;
   bool opencv_png = false;  ///< a .png disparity map counts sixteenths of a pixel, not KITTI's 256ths
 };
 

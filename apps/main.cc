@@ -33,6 +33,7 @@ int main(int argc, char** argv) {
   pomona::addCompute(app);
   pomona::addEval(app);
   pomona::addCompare(app);
+  pomona::addMeasure(app);
   pomona::addCalibrate(app);
   pomona::addRig(app);
   pomona::addRectify(app);
@@ -43,7 +44,8 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     if (app.get_subcommands().empty())
       return fail(
-          "what to do? compute, eval, compare, calibrate, rig, rectify, check, render or info (see pomona "
+          "what to do? compute, measure, eval, compare, calibrate, rig, rectify, check, render or info (see "
+          "pomona "
           "--help)",
           kBadUsage);
     if (!std::cout.flush()) return fail("standard output: cannot be written", kBadInput);

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <opencv2/core/utility.hpp>
 #include <stdexcept>
 
@@ -39,8 +40,10 @@ void addMethodOptions(CLI::App& verb, MethodArguments& arguments, std::vector<st
   const std::string own = " (default: each method's own)";
   verb.add_option("--left-right", post.left_right_px,
                   "Largest difference of left and right disparity, px; negative: any" + own);
-  verb.add_option("--speckle", post.speckle_size_px, "Smaller regions are removed, pixels; 0: none" + own);
-  verb.add_option("--median", post.median_size, "Side of the median filter: 0 (none), 3 or 5" + own);
+  verb.add_option("--speckle", post.speckle_size_px, "Smaller regions are removed, pixels; 0: none" + own)
+      ->check(CLI::Range(0, 1 << 30));
+  verb.add_option("--median", post.median_size, "Side of the median filter: 0 (none), 3 or 5" + own)
+      ->check(CLI::IsMember({0, 3, 5}));
   verb.add_option("--threads", arguments.threads, "Worker threads (default 0: one per processor)");
 }
 
@@ -48,6 +51,8 @@ std::vector<NamedMethod> makeMethods(const MethodArguments& arguments) {
   if (arguments.threads < 0 || arguments.threads > kMostThreads)
     throw std::invalid_argument("--threads is " + std::to_string(arguments.threads) + "; allowed: 0 to " +
                                 std::to_string(kMostThreads));
+  if (const auto& px = arguments.post_processing.left_right_px; px && !(std::abs(*px) <= 1e6f))
+    throw std::invalid_argument("--left-right is " + std::to_string(*px) + "; allowed: -1000000 to 1000000");
   // OpenCV's matchers ask OpenCV only. More threads than processors it would answer with a warning.
   if (arguments.threads > 0) cv::setNumThreads(std::min(arguments.threads, availableThreads()));
   std::vector<NamedMethod> chosen;

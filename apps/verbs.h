@@ -14,6 +14,7 @@ void addCompare(CLI::App& app);
 void addCompute(CLI::App& app);
 void addEval(CLI::App& app);
 void addInfo(CLI::App& app);
+void addMeasure(CLI::App& app);
 void addRectify(CLI::App& app);
 void addRender(CLI::App& app);
 void addRig(CLI::App& app);

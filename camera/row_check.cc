@@ -33,14 +33,16 @@ int absoluteDifference(Bytes a, int ax, int ay, Bytes b, int bx, int by) {
   return sum;
 }
 
-// How well a block tells its place: the weaker one of its changes along x and along y.
+// How well a block tells its place: the weaker one of its changes along x and along y, none of which counts
+// for much by itself, lest points gather at hot pixels.
 int texture(Bytes view, int x, int y) {
+  constexpr int kMostOfOne = 20;
   int along_x = 0, along_y = 0;
   for (int row = y - 3; row < y + 3; ++row) {
     const std::uint8_t *p = view.row(row), *below = view.row(row + 1);
     for (int i = x - 3; i < x + 3; ++i) {
-      along_x += std::abs(p[i + 1] - p[i]);
-      along_y += std::abs(below[i] - p[i]);
+      along_x += std::min(std::abs(p[i + 1] - p[i]), kMostOfOne);
+      along_y += std::min(std::abs(below[i] - p[i]), kMostOfOne);
     }
   }
   return std::min(along_x, along_y);
@@ -103,10 +105,11 @@ float sample(Bytes view, float x, float y) {
 bool settle(Bytes left, Bytes right, int x, int y, Place& place) {
   constexpr int kRadius = 5, kSide = 2 * kRadius + 1, kMostSteps = 5;
   constexpr float kFarthest = 3, kSettled = 0.03f, kLeastTexture = 8 * kSide * kSide;
+  constexpr float kMostOfOne = 0.2f;  // of the texture: no place may hang on a hot pixel
   if (x < kRadius + 1 || y < kRadius + 1 || x + kRadius + 1 >= left.width || y + kRadius + 1 >= left.height)
     return false;
   std::array<float, kSide * kSide> value, gx, gy;
-  float xx = 0, xy = 0, yy = 0, mean = 0, mean_x = 0, mean_y = 0;
+  float xx = 0, xy = 0, yy = 0, mean = 0, mean_x = 0, mean_y = 0, largest_xx = 0, largest_yy = 0;
   for (int i = 0; i < kSide * kSide; ++i) {
     const int px = x - kRadius + i % kSide, py = y - kRadius + i / kSide;
     const auto k = static_cast<std::size_t>(i);
@@ -120,9 +123,11 @@ bool settle(Bytes left, Bytes right, int x, int y, Place& place) {
   for (std::size_t k = 0; k < gx.size(); ++k) {  // gradients of the brightness above its mean
     gx[k] -= mean_x, gy[k] -= mean_y;
     xx += gx[k] * gx[k], xy += gx[k] * gy[k], yy += gy[k] * gy[k];
+    largest_xx = std::max(largest_xx, gx[k] * gx[k]), largest_yy = std::max(largest_yy, gy[k] * gy[k]);
   }
   const float determinant = xx * yy - xy * xy;
   if (!(yy > kLeastTexture && xx > kLeastTexture && determinant > 0.1f * xx * yy)) return false;
+  if (largest_xx > kMostOfOne * xx || largest_yy > kMostOfOne * yy) return false;
 
   const Place begin = place;
   for (int step = 0; step < kMostSteps; ++step) {

@@ -4,7 +4,8 @@
 # <build>/layers/sgm/sgm -> <source>/sgm, a directory that only the dependants of pomona_sgm have on
 # their include path: an include against the layer order does not compile.
 #
-# KERNELS compiles NAME/kernels/target_<isa>.cc once per instruction set, each with its own flags.
+# KERNELS compiles NAME/kernels/target_<isa>.cc once per instruction set, each with its own flags. A folder without one
+# for an instruction set uses its scalar kernels there: the compiler's vectors of 16 bytes are all that NEON has.
 
 set(POMONA_FLAGS_scalar "")
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
@@ -13,6 +14,9 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set(POMONA_FLAGS_avx512 ${POMONA_FLAGS_avx2} -mavx512f -mavx512bw -mavx512dq -mavx512vl -mavx512vbmi
       -mavx512bitalg -mprefer-vector-width=512
       -Wno-maybe-uninitialized)  # GCC 12 warns of its own _mm512_undefined_* (PR 105593)
+elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
+  set(POMONA_ISAS scalar neon CACHE STRING "Instruction sets to build kernels for")
+  set(POMONA_FLAGS_neon "")  # part of every AArch64
 else()
   set(POMONA_ISAS scalar CACHE STRING "Instruction sets to build kernels for")
 endif()
@@ -48,6 +52,9 @@ function(pomona_module name)
   if(arg_KERNELS)
     foreach(isa IN LISTS POMONA_ISAS)
       set(source kernels/target_${isa}.cc)
+      if(NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${source})
+        continue()
+      endif()
       target_sources(${target} PRIVATE ${source})
       set_source_files_properties(${source} PROPERTIES
         COMPILE_OPTIONS "${POMONA_FLAGS_${isa}};${POMONA_KERNEL_FLAGS};-fno-trapping-math;-fno-math-errno")

@@ -8,9 +8,9 @@
 
 namespace pomona {
 
-void* allocateAligned(std::size_t bytes) {
+void* allocateAligned(std::size_t bytes, Pages pages) {
   constexpr std::size_t kHugePage = std::size_t{2} << 20, kCacheLine = 64;
-  const std::size_t alignment = bytes >= 2 * kHugePage ? kHugePage : kCacheLine;
+  const std::size_t alignment = pages == Pages::kHuge && bytes >= 2 * kHugePage ? kHugePage : kCacheLine;
   if (bytes > static_cast<std::size_t>(-1) - alignment) throw std::bad_alloc();
   const std::size_t rounded = (bytes + alignment - 1) / alignment * alignment;
   void* memory = std::aligned_alloc(alignment, rounded > 0 ? rounded : alignment);

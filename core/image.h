@@ -37,13 +37,18 @@ struct GuideView {
   const std::uint8_t* row(int y) const { return data + y * stride; }
 };
 
-/// Memory on a 64-byte boundary, to be given to std::free. Large blocks ask for huge pages. Throws
-/// std::bad_alloc.
-void* allocateAligned(std::size_t bytes);
+enum class Pages {
+  kHuge,   ///< fewer page faults, where all of the memory is used
+  kSmall,  ///< what is never touched stays unused, where only some of it may be
+};
+
+/// Memory on a 64-byte boundary, to be given to std::free. Blocks of several megabytes ask for huge pages
+/// unless told not to. Throws std::bad_alloc.
+void* allocateAligned(std::size_t bytes, Pages pages);
 
 /// Raw memory on a 64-byte boundary. Growing discards the contents; shrinking keeps the memory for the next
 /// frame.
-template <typename T>
+template <typename T, Pages kPages = Pages::kHuge>
 class Buffer {
   static_assert(std::is_trivially_copyable_v<T>);
 
@@ -55,7 +60,7 @@ class Buffer {
     if (count <= capacity_) return;
     memory_.reset();
     capacity_ = 0;
-    memory_.reset(static_cast<T*>(allocateAligned(count * sizeof(T))));
+    memory_.reset(static_cast<T*>(allocateAligned(count * sizeof(T), kPages)));
     capacity_ = count;
   }
   T* data() { return memory_.get(); }

@@ -119,7 +119,7 @@ const StereoResult& StereoEngine::compute(const cv::Mat& left_view, const cv::Ma
   s.checkRows();
   if (s.options.row_check) clock.lap("row check");
   s.pipeline.run(s.input.views(), maskView(mask), clock);
-  s.trust.estimate(s.pipeline.maps(), s.pipeline.largestCostSum(), s.threads);
+  s.trust.estimate(s.pipeline.maps(), s.pipeline.largestCostSum(), s.pipeline.filterKernels(), s.threads);
   if (s.options.mode == OutputMode::kSparse && s.options.validation.min_confidence > 0)
     s.trust.reject(s.pipeline.maps(), s.options.validation.min_confidence, s.threads);
   clock.lap("confidence");

@@ -8,7 +8,6 @@
 
 #include "core/cpu.h"
 #include "sgm/kernels.h"
-#include "sgm/mutual_information.h"
 
 namespace pomona {
 namespace {
@@ -60,24 +59,6 @@ void validateMatch(const std::string& prefix, const CostOptions& cost, const Agg
 }
 
 }  // namespace
-
-int maximumCost(MatchingCost cost) {
-  switch (cost) {
-    case MatchingCost::kCensus5x5:
-      return 24;
-    case MatchingCost::kCensus7x7:
-      return 48;
-    case MatchingCost::kCensus9x7:
-      return 62;
-    case MatchingCost::kCenterSymmetricCensus9x7:
-      return 31;
-    case MatchingCost::kMutualInformation:
-      return MutualInformation::kMaximumCost;
-    case MatchingCost::kBlended:
-      return 45;
-  }
-  return 255;
-}
 
 void Options::validate() const {
   requireRange("min_disparity", min_disparity, -16384, 16384);

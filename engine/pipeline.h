@@ -17,6 +17,7 @@ class Pipeline {
   void run(const MatchInput& pair, ImageView<const std::uint8_t> mask, StageClock& clock);
 
   MatchMaps& maps() { return sparse_.maps(); }
+  const FilterKernels& filterKernels() const { return pomona::filterKernels(isa_); }
   /// The largest sum of matching costs over the paths of the last match, whose margins maps() holds.
   int largestCostSum() const {
     return matchesTwice()

@@ -16,7 +16,7 @@ namespace pomona {
 namespace {
 
 constexpr int kFactor = 4;
-constexpr double kIgnoredShare = 0.002;  // of the measured pixels: outliers that no scene needs
+constexpr double kIgnoredShare = 0.0005;  // of the measured pixels: outliers that no scene needs
 constexpr int kStep = 16;
 
 /// The disparity, in pixels of the small map, that all but the ignored share stay below.

@@ -14,8 +14,8 @@ void Refinement::run(Image<float>& disparity, GuideView guide, const CompletionO
     clock.lap("weighted median");
   }
   if (options.plane_refinement) {
-    refinePlanes(disparity.view(), guide, options.refine_radius_px, disparity.view(), planes_, kernels,
-                 threads);
+    refinePlanes(disparity.view(), guide, options.refine_radius_px, disparity.view(), weighted_median_.plane,
+                 kernels, threads);
     clock.lap("refinement");
   }
 }

@@ -22,7 +22,6 @@ class Refinement {
   Image<float> filtered_;
   WeightedMedianScratch weighted_median_;
   MedianScratch median_;
-  PlaneRefineScratch planes_;
 };
 
 }  // namespace pomona

@@ -15,26 +15,26 @@ struct Fit {
   double constant, margin, margin_squared, curvature, residual, no_residual;
 
   double of(const TrustFeatures& f) const {
-    const bool none = f.residual == TrustFeatures::kResiduals - 1;
+    const bool none = f.residual == kTrustSteps - 1;
     return constant + margin * f.margin + margin_squared * f.margin * f.margin + curvature * f.curvature +
            (none ? no_residual : residual * f.residual);
   }
 };
 
 // Printed by bench/confidence.
-constexpr Fit kLogOdds = {3.384, 0.1741, 0.02215, -0.0983, -0.0968, -2.283};
-constexpr Fit kLogSigma = {-1.101, -0.0960, 0.00293, 0.0129, 0.0299, 0.940};
+constexpr Fit kLogOdds = {2.6273, 0.16888, 0.018735, -0.085034, -0.043632, -1.4108};
+constexpr Fit kLogSigma = {-0.99697, -0.107, 0.0013988, 0.026337, 0.021868, 0.7061};
 
 constexpr Trust::Pair trustInFilled(PixelState state) {
   switch (state) {
     case PixelState::kFilledPlane:
-      return {0.89f, 0.43f};
+      return {0.86f, 0.47f};
     case PixelState::kFilledBackground:
-      return {0.58f, 6.38f};
+      return {0.47f, 6.97f};
     case PixelState::kFilledInterpolated:
-      return {0.48f, 16.40f};
+      return {0.43f, 6.61f};
     case PixelState::kFilledCoarse:
-      return {0.44f, 2.78f};
+      return {0.39f, 3.69f};
     default:
       return {0.0f, std::numeric_limits<float>::quiet_NaN()};
   }
@@ -42,45 +42,42 @@ constexpr Trust::Pair trustInFilled(PixelState state) {
 
 }  // namespace
 
-TrustFeatures trustFeatures(const MatchMaps& maps, int largest_cost_sum, int y, int x) {
-  constexpr float kFarthest_px = 2;
-  TrustFeatures f;
-  f.margin = std::min(12 * maps.margin.row(y)[x] / largest_cost_sum, TrustFeatures::kMargins - 1);
-  f.curvature = std::min(12 * maps.curvature.row(y)[x] / largest_cost_sum, TrustFeatures::kCurvatures - 1);
-  f.residual = TrustFeatures::kResiduals - 1;
-  const float d = maps.disparity.row(y)[x];
-  const float column = static_cast<float>(x) - d + 0.5f;
-  if (column >= 0 && column < static_cast<float>(maps.disparity.width())) {
-    const float difference = std::fabs(d - maps.right_disparity.row(y)[static_cast<int>(column)]);
-    if (difference < kFarthest_px) f.residual = std::min(f.residual, static_cast<int>(8 * difference));
-  }
-  return f;
+void trustCodes(const MatchMaps& maps, int largest_cost_sum, int y, int x_begin, int count,
+                const FilterKernels& kernels, std::uint16_t* codes) {
+  kernels.trustCodes(
+      {{maps.disparity.row(y) + x_begin, maps.right_disparity.row(y), x_begin, count, maps.disparity.width()},
+       maps.margin.row(y) + x_begin,
+       maps.curvature.row(y) + x_begin,
+       12.0f / static_cast<float>(largest_cost_sum)},
+      codes);
 }
 
 Trust::Trust() {
-  TrustFeatures f;
-  for (f.margin = 0; f.margin < TrustFeatures::kMargins; ++f.margin)
-    for (f.curvature = 0; f.curvature < TrustFeatures::kCurvatures; ++f.curvature)
-      for (f.residual = 0; f.residual < TrustFeatures::kResiduals; ++f.residual)
-        measured_[index(f)] = {static_cast<float>(1 / (1 + std::exp(-kLogOdds.of(f)))),
-                               static_cast<float>(std::exp(kLogSigma.of(f)))};
+  for (int code = 0; code < TrustFeatures::kCodes; ++code) {
+    const TrustFeatures f = TrustFeatures::of(code);
+    measured_[code] = {static_cast<float>(1 / (1 + std::exp(-kLogOdds.of(f)))),
+                       static_cast<float>(std::exp(kLogSigma.of(f)))};
+  }
+  for (int state = 0; state < 256; ++state) in_state_[state] = trustInFilled(static_cast<PixelState>(state));
 }
 
-void Trust::estimate(const MatchMaps& maps, int largest_cost_sum, int threads) {
+void Trust::estimate(const MatchMaps& maps, int largest_cost_sum, const FilterKernels& kernels, int threads) {
   const int width = maps.disparity.width(), height = maps.disparity.height();
   confidence.resize(width, height);
   sigma_px.resize(width, height);
-  const auto of = [&](int y, int x) {
-    const auto state = static_cast<PixelState>(maps.state.row(y)[x]);
-    return isMeasured(state) ? measured_[index(trustFeatures(maps, largest_cost_sum, y, x))]
-                             : trustInFilled(state);
-  };
-  parallelStrips(threads, height, 32, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y)
-      for (int x = 0; x < width; ++x) {
-        const Pair pair = of(y, x);
-        confidence.row(y)[x] = pair.confidence;
-        sigma_px.row(y)[x] = pair.sigma_px;
+  parallelStrips(threads, height, 32, [&](int y_begin, int y_end) {
+    std::uint16_t codes[kTrustChunk];
+    for (int y = y_begin; y < y_end; ++y)
+      for (int begin = 0; begin < width; begin += kTrustChunk) {
+        const int count = std::min(kTrustChunk, width - begin);
+        trustCodes(maps, largest_cost_sum, y, begin, count, kernels, codes);
+        const std::uint8_t* state = maps.state.row(y) + begin;
+        for (int i = 0; i < count; ++i) {
+          const bool measured = isMeasured(static_cast<PixelState>(state[i]));
+          const Pair& pair = *(measured ? &measured_[codes[i]] : &in_state_[state[i]]);  // no branch
+          confidence.row(y)[begin + i] = pair.confidence;
+          sigma_px.row(y)[begin + i] = pair.sigma_px;
+        }
       }
   });
 }

@@ -2,22 +2,30 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
+#include <cstdint>
 
 #include "core/image.h"
+#include "filters/kernels.h"
 #include "sgm/matcher.h"
 
 namespace pomona {
 
 /// What the trust in a measured pixel rests on, each in whole steps; the last is open upwards.
 struct TrustFeatures {
-  static constexpr int kMargins = 16, kCurvatures = 16, kResiduals = 16;
+  static constexpr int kCodes = kTrustSteps * kTrustSteps * kTrustSteps;
   int margin;     ///< how far the second-best sum is above the best: in twelfths of the largest cost sum
   int curvature;  ///< of the sums at the winner: in twelfths of the largest cost sum
   int residual;   ///< |d - d_right| at the match: in px / 8; the last also if the right view knows none
+
+  static constexpr TrustFeatures of(int code) {
+    return {code / (kTrustSteps * kTrustSteps), code / kTrustSteps % kTrustSteps, code % kTrustSteps};
+  }
 };
-/// `largest_cost_sum`: see Pipeline.
-TrustFeatures trustFeatures(const MatchMaps& maps, int largest_cost_sum, int y, int x);
+
+/// The features of up to kTrustChunk pixels from (x_begin, y) on, as codes. `largest_cost_sum`: see Pipeline.
+inline constexpr int kTrustChunk = 64;
+void trustCodes(const MatchMaps& maps, int largest_cost_sum, int y, int x_begin, int count,
+                const FilterKernels& kernels, std::uint16_t* codes);
 
 /// Fitted by bench/confidence to rendered scenes with noise, gain, blur and weak texture.
 class Trust {
@@ -30,7 +38,7 @@ class Trust {
 
   /// Of every pixel: confidence, the probability that |d - truth| <= 1 px, 0 where d is unknown; and
   /// sigma_px, within which 68.3 % of pixels like it lie, NaN where d is unknown.
-  void estimate(const MatchMaps& maps, int largest_cost_sum, int threads);
+  void estimate(const MatchMaps& maps, int largest_cost_sum, const FilterKernels& kernels, int threads);
 
   /// Makes measured pixels of a lower confidence kAmbiguous and unknown.
   void reject(MatchMaps& maps, float min_confidence, int threads);
@@ -38,12 +46,8 @@ class Trust {
   Image<float> confidence, sigma_px;
 
  private:
-  static constexpr std::size_t index(const TrustFeatures& f) {
-    return static_cast<std::size_t>(
-        (f.margin * TrustFeatures::kCurvatures + f.curvature) * TrustFeatures::kResiduals + f.residual);
-  }
-  std::array<Pair, TrustFeatures::kMargins * TrustFeatures::kCurvatures * TrustFeatures::kResiduals>
-      measured_;
+  std::array<Pair, TrustFeatures::kCodes> measured_;
+  std::array<Pair, 256> in_state_;  // of all others
 };
 
 }  // namespace pomona

@@ -61,6 +61,14 @@ struct LeftRightPixels {
 /// Disparities of this size or more, as infinite ones, meet nothing.
 inline constexpr float kFarthestDisparity_px = 1e9f;
 
+/// Of engine/trust.h.
+inline constexpr int kTrustSteps = 16;
+struct TrustPixels {
+  LeftRightPixels match;
+  const std::uint16_t *margin, *curvature;
+  float scale;  ///< from these to their steps
+};
+
 struct FilterKernels {
   /// first[i] to last[i]: the whole disparities within `tolerance_px` of right[i]; none if it is unknown.
   void (*metDisparities)(const float* right, int count, float tolerance_px, std::int32_t* first,
@@ -68,6 +76,9 @@ struct FilterKernels {
   /// column[i] = the right column nearest to x - d, -1 if it lies outside the image or d is NaN;
   /// difference[i] = |d - d_right| there (of column 0 where there is none).
   void (*matches)(const LeftRightPixels& pixels, std::int32_t* column, float* difference);
+  /// codes[i] = (margin step * kTrustSteps + curvature step) * kTrustSteps + residual step; the residual's
+  /// are eighths of a pixel of |d - d_right| at the match; the last one of each is open upwards.
+  void (*trustCodes)(const TrustPixels& pixels, std::uint16_t* codes);
   /// out[i] = 1 if row[i] is not connected to row[i - 1], see filters/speckle.h.
   void (*breaks)(const float* row, int count, float max_step_px, std::uint8_t* out);
   /// out[i] = 1 if upper[i] and lower[i] are connected, and not by way of upper[i - 1] and lower[i - 1]

@@ -7,10 +7,6 @@
 
 namespace pomona {
 
-struct PlaneRefineScratch {
-  GuidedPlane plane;
-};
-
 /// Replaces each disparity by the value, at its place, of a plane through its neighbours.
 ///
 /// A pixel q of the (2 radius + 1)^2 window around p, clipped to the image, is taken if it is known,
@@ -26,6 +22,6 @@ struct PlaneRefineScratch {
 /// finite or NaN. Throws std::invalid_argument for another radius, or if the guide has other than 1 or 3
 /// channels.
 void refinePlanes(ImageView<const float> in, GuideView guide, int radius, ImageView<float> out,
-                  PlaneRefineScratch& scratch, const FilterKernels& kernels, int threads);
+                  GuidedPlane& scratch, const FilterKernels& kernels, int threads);
 
 }  // namespace pomona

@@ -19,7 +19,7 @@ struct SpeckleScratch {
   struct RowRuns {
     int first, last;  ///< runs[first] up to, not including, runs[last]
   };
-  Buffer<Run> runs;
+  Buffer<Run, Pages::kSmall> runs;  // room for a run per pixel
   Buffer<RowRuns> rows;
 };
 

@@ -58,11 +58,11 @@ class HoleRays {
   void followRay(std::size_t index, int radius_px, const PyramidKernels& kernels);
 
   int count_ = 0;
-  Buffer<int> row_begin_;  // index of each row's first hole
-  Buffer<Pixel> holes_;
-  Buffer<std::uint16_t> steps_;     // one plane of count_ values per ray
-  Image<std::uint16_t> open_;       // 0 at sources, 0xffff elsewhere
-  Image<std::uint16_t> ring_rows_;  // the last three rows of every ray's sweep
+  Buffer<int> row_begin_;                       // index of each row's first hole
+  Buffer<Pixel, Pages::kSmall> holes_;          // room for all pixels
+  Buffer<std::uint16_t, Pages::kSmall> steps_;  // one plane of count_ values per ray
+  Image<std::uint16_t> open_;                   // 0 at sources, 0xffff elsewhere
+  Image<std::uint16_t> ring_rows_;              // the last three rows of every ray's sweep
 };
 
 }  // namespace pomona

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/parallel.h"
+#include "sgm/mutual_information.h"
 
 namespace pomona {
 namespace {
@@ -14,6 +15,24 @@ namespace {
 constexpr int kPriorSteps = 4;  // ramps per pixel of disparity
 
 }  // namespace
+
+int maximumCost(MatchingCost cost) {
+  switch (cost) {
+    case MatchingCost::kCensus5x5:
+      return 24;
+    case MatchingCost::kCensus7x7:
+      return 48;
+    case MatchingCost::kCensus9x7:
+      return 62;
+    case MatchingCost::kCenterSymmetricCensus9x7:
+      return 31;
+    case MatchingCost::kMutualInformation:
+      return MutualInformation::kMaximumCost;
+    case MatchingCost::kBlended:
+      return 45;
+  }
+  return 255;
+}
 
 DisparityRange makeRange(int min_disparity, int disparities, const SgmKernels& kernels) {
   return {min_disparity, disparities, vectorsFor(disparities, kernels.vector_bytes), kernels.vector_bytes};

@@ -6,6 +6,7 @@ status 1 (bad input, bad values) or 2 (bad usage), and must leave no output behi
 """
 
 import array
+import json
 import math
 import os
 import resource
@@ -168,6 +169,72 @@ class GoodInput(CommandTest):
             else:
                 self.assertEqual(z, math.inf)
 
+    def test_depth_sigma_grows_with_the_square_of_depth(self):
+        self.assert_accepted(self.compute("--calib", self.calib, "-o", "out.pfm", "--sigma", "sigma.pfm",
+                                          "--depth-sigma", "depth_sigma.pfm"))
+        for d, sigma, depth_sigma in zip(self.pfm("out.pfm")[2], self.pfm("sigma.pfm")[2],
+                                         self.pfm("depth_sigma.pfm")[2]):
+            if math.isfinite(d) and d > 0:
+                self.assertAlmostEqual(depth_sigma / (96 * 0.12 / d / d * sigma), 1, places=4)
+            else:
+                self.assertEqual(depth_sigma, math.inf)
+
+    def test_clouds_hold_the_same_points(self):
+        for leaf in ("cloud.ply", "cloud.pcd"):
+            self.assert_accepted(self.compute("--calib", self.calib, "-o", "out.pfm", "--cloud", leaf))
+        head, body = self.bytes_of("cloud.pcd").split(b"DATA binary\n")
+        self.assertIn(b"\nWIDTH 96\nHEIGHT 64\n", head)
+        pcd = [p for p in struct.iter_unpack("<3fI", body)]
+        self.assertEqual(len(pcd), 96 * 64)
+        ply = list(struct.iter_unpack("<3f3B", self.bytes_of("cloud.ply").split(b"end_header\n")[1]))
+        self.assertEqual([(x, y, z, rgb >> 16, rgb >> 8 & 255, rgb & 255) for x, y, z, rgb in pcd if z == z], ply)
+
+    def test_open3d_reads_clouds(self):
+        try:
+            import open3d  # pylint: disable=import-outside-toplevel
+        except ImportError:
+            self.skipTest("python3-open3d is not there")
+        counts = []
+        for leaf in ("cloud.ply", "cloud.pcd"):
+            self.assert_accepted(self.compute("--calib", self.calib, "-o", "out.pfm", "--cloud", leaf))
+            cloud = open3d.io.read_point_cloud(os.path.join(self.folder, leaf), remove_nan_points=True)
+            self.assertTrue(cloud.has_colors())
+            counts.append(len(cloud.points))
+        self.assertGreater(counts[0], 96 * 64 // 2)
+        self.assertEqual(counts[0], counts[1])
+
+    def test_measure_says_how_far(self):
+        self.assert_accepted(self.run_command("render", "boxes", "--seed", "2", "--size", "320x240", "--disparities",
+                                              "48", "-o", "boxes"))
+        width, height, truth = self.pfm("boxes/disp0GT.pfm")
+
+        def spread(place):  # of the disparities around a place
+            x, y = place
+            window = [truth[row * width + column] for row in range(y - 12, y + 13) for column in range(x - 12, x + 13)]
+            return max(window) - min(window) if min(window) > 20 else math.inf
+
+        x, y = min(((x, y) for x in range(60, width - 12, 8) for y in range(12, height - 12, 8)), key=spread)
+        views = ("measure", "boxes/im0.png", "boxes/im1.png", "--calib", "boxes/calib.txt")
+        box = f"{x - 12},{y - 12},25,25"
+        polygon = f"{x - 9},{y - 9},{x + 9},{y - 9},{x + 9},{y + 9},{x - 9},{y + 9}"
+        arguments = (*views, "--shape", "surface", "--box", box, "--circle", f"{x},{y},12", "--polygon", polygon,
+                     "--point", f"{x},{y}")
+        with open(os.path.join(self.folder, "boxes", "calib.txt"), encoding="ascii") as file:
+            focal = float(file.read().split("cam0=[")[1].split()[0])
+        true_m = focal * 0.12 / truth[y * width + x]
+        result = self.run_command(*arguments, "--json")
+        self.assert_accepted(result)
+        entries = json.loads(result.stdout)
+        self.assertEqual([entry["region"].split()[0] for entry in entries], ["box", "circle", "polygon", "point"])
+        for entry in entries:
+            self.assertAlmostEqual(entry["near_point_m"][2] / true_m, 1, delta=0.03)
+            self.assertGreater(entry["distance_sigma_m"], 0)
+        lines = self.run_command(*arguments).stdout.splitlines()
+        self.assertEqual(len(lines), 4)
+        self.assertTrue(lines[0].startswith(f"box {box}: {entries[0]['distance_m']:.4f} +- "), lines[0])
+        outside = self.run_command(*views, "--box", "500,500,9,9")
+        self.assertEqual(outside.stdout, "box 500,500,9,9: not measured: the region holds no pixel of the image\n")
+
     def test_formats_by_extension_and_flag(self):
         self.assert_accepted(self.compute("-o", "kitti.png", "--state", "state.pgm", "--confidence", "c.pfm"))
         self.assert_accepted(self.compute("-o", "x16.png", "--opencv-png"))
@@ -305,17 +372,36 @@ class BadOptions(CommandTest):
 
     def test_usage(self):
         self.refuse("--mode", "--mode", "thick")
+        self.refuse("allowed: sparse", "--min-confidence", "0.9")
+        self.refuse("validation.min_confidence is nan", "--mode", "sparse", "--min-confidence", "nan")
         self.refuse("--max-disparity", "--max-disparity", "many")
         self.refuse("--max-disparity = nan; allowed: a number", "--max-disparity", "nan")
         self.refuse("--max-disparity", "--max-disparity", "99999999999")
         self.refuse("--nonsense", "--nonsense", status=2)
-        self.assert_refused(self.run_command(), "compute, eval, compare, calibrate, rig, rectify, check, render or info", 2)
+        self.assert_refused(self.run_command(), "compute, measure, eval, compare, calibrate, rig, rectify, check, render", 2)
         self.assert_refused(self.run_command("guess"), "guess", 2)
         self.assert_refused(self.run_command("compute"), "left", 2)
         self.assert_refused(self.run_command("compute", self.left, self.right), "--output", 2)
         self.assert_refused(self.compute("-o", "out.pfm", "--depth", "d.pfm"), "--calib", 2)
         self.assert_refused(self.compute("-o", "out.pfm", "--cloud", "c.ply"), "--calib", 2)
+        self.assert_refused(self.compute("-o", "out.pfm", "--depth-sigma", "s.pfm"), "--calib", 2)
         self.assert_refused(self.compute("-o", "out.pfm", "--error", "e.png"), "--gt", 2)
+        self.assert_left_alone([])
+
+    def measure(self, *arguments):
+        return self.run_command("measure", self.left, self.right, "--calib", self.calib, *arguments)
+
+    def test_measure(self):
+        for arguments, part in ((("--box", "1,2,3"), "--box is '1,2,3'"), (("--box", "1,2,3,4,"), "1,2,3,4,"),
+                                (("--box", "nan,1,2,3"), "nan"), (("--box", "1e12,1,2,3"), "1e12"),
+                                (("--box", "1,2,0,4"), "box is empty"), (("--circle", "5,5,-1"), "radius"),
+                                (("--polygon", "1,2,3"), "--polygon"), (("--polygon", "1,2,3,4"), "three corners"),
+                                (("--mask", "absent.png"), "absent.png"), (("--point", "5"), "--point"),
+                                (("--box", "1,1,9,9", "--radius", "30"), "--radius"),
+                                (("--box", "1,1,9,9", "--radius", "-30,4"), "radius_m")):
+            self.assert_refused(self.measure(*arguments), part)
+        self.assert_refused(self.measure(), "--box", 2)
+        self.assert_refused(self.run_command("measure", self.left, self.right, "--box", "1,1,9,9"), "--calib", 2)
         self.assert_left_alone([])
 
     def test_render(self):
@@ -343,7 +429,7 @@ class BadOutputs(CommandTest):
 
     def test_formats(self):
         for option, name in (("-o", "out.tif"), ("-o", "out"), ("--color", "a.jpg"), ("--state", "a.pfm"),
-                             ("--confidence", "a.ply"), ("--depth", "a.exr"), ("--cloud", "a.pcd"),
+                             ("--confidence", "a.ply"), ("--depth", "a.exr"), ("--cloud", "a.obj"), ("--depth-sigma", "a.png"),
                              ("--error", "a.pfm")):
             self.refuse(f"'{name}'", option, name)
         self.refuse("--opencv-png", "--opencv-png")

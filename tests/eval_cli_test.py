@@ -99,7 +99,7 @@ class Eval(DatasetTest):
         self.assertIn("--left-right -1, --speckle 0, --median 0", self.json()["facts"]["maps"])
         result = self.eval("--median", "4", methods="ssd")
         self.assertEqual(result.returncode, 1)
-        self.assertIn("median_size", result.stderr)
+        self.assertIn("--median", result.stderr)
 
     def test_mask(self):
         every = self.eval("--json", "out.json").stdout.splitlines()[1].split()
@@ -298,6 +298,8 @@ class Eval(DatasetTest):
                 ("no/out.html", ("data", "--report", "no/out.html"), 1), ("--threads is -1", ("data", "--threads", "-1"), 1),
                 ("which is no folder", ("data", "--submission", "data/trainingQ/Boxes/im0.png"), 1),
                 ("--mask", ("data", "--mask", "some"), 1), ("--mode", ("data", "--mode", "thick"), 1),
+                ("--left-right is nan", ("data", "--left-right", "nan"), 1),
+                ("--median", ("data", "--median", "4"), 1), ("--speckle", ("data", "--speckle", "-1"), 1),
                 ("--json: is empty", ("data", "--json", ""), 1), ("--submission: is empty", ("data", "--submission", ""), 1),
                 ("folders", (), 2)):
             if ".ssh-like" in arguments:

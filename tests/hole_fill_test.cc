@@ -1,6 +1,6 @@
 #include "pyramid/hole_fill.h"
 
-#include "pomona/disparity.h"
+#include "pomona/pixel_state.h"
 #include "tests/pyramid_support.h"
 #include "tests/reference/pyramid.h"
 

@@ -9,8 +9,8 @@
 
 #include "baselines/method.h"
 #include "datasets/named_scenes.h"
-#include "pomona/disparity.h"
 #include "pomona/evaluation.h"
+#include "pomona/pixel_state.h"
 
 namespace pomona {
 namespace {

@@ -145,6 +145,23 @@ TEST(RowCheck, EngineWarnsUnlessToldNotTo) {
   EXPECT_EQ(cv::norm(unchecked.state, engine.compute(left, off).state, cv::NORM_INF), 0);
 }
 
+// Where they drown the texture, the offset is unknown, not wrong.
+TEST(RowCheck, HotPixelsDoNotMislead) {
+  const auto& [left, right] = scene(640, 480);
+  cv::RNG random(4);
+  for (const double contrast : {1.0, 0.25, 0.1})
+    for (const int hot : {300, 1000, 3000}) {
+      cv::Mat views[2] = {left * contrast, right * contrast};
+      for (cv::Mat& view : views)
+        for (int i = 0; i < hot; ++i)
+          view.at<std::uint8_t>(random.uniform(0, view.rows), random.uniform(0, view.cols)) = 255;
+      const RowOffsets r = measure(views[0], views[1], 0, 64);
+      SCOPED_TRACE(::testing::Message() << "contrast " << contrast << ", " << hot << " hot pixels");
+      EXPECT_TRUE(std::isnan(r.median_px) || (std::abs(r.median_px) < 0.15 && r.worst_px < 0.5))
+          << r.median_px << ' ' << r.worst_px;
+    }
+}
+
 TEST(RowCheck, RealPairsAreAligned) {
   namespace fs = std::filesystem;
   const char* datasets = std::getenv("POMONA_DATASETS");

@@ -369,7 +369,7 @@ TEST(Sgm, MatcherRefinesAndMarksAmbiguousPixels) {
         const bool unique = best <= 0.8 * want.second[i] + 1e-9;
         EXPECT_EQ(maps.state.row(y)[x] == static_cast<std::uint8_t>(PixelState::kMeasured), unique);
         EXPECT_EQ(maps.margin.row(y)[x], want.second[i] - best);
-        EXPECT_EQ(maps.curvature.row(y)[x], std::max(0, want.below[i] + want.above[i] - 2 * best));
+        EXPECT_EQ(maps.curvature.row(y)[x], std::max(0.0, want.below[i] + want.above[i] - 2 * best));
         ambiguous += !unique;
         if (want.right_index[i] < 0) {
           EXPECT_TRUE(std::isnan(maps.right_disparity.row(y)[x]));

@@ -1,11 +1,15 @@
 #include "camera/triangulate.h"
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <sstream>
+#include <string>
+#include <vector>
 
-#include "camera/ply.h"
+#include "camera/cloud_file.h"
 #include "datasets/render.h"
 #include "file_support.h"
 
@@ -125,10 +129,113 @@ TEST(Ply, HoldsEveryKnownPixelInRowOrder) {
   EXPECT_EQ(file.peek(), EOF);
 }
 
+// Reads a binary PCD by its own header, field by field, as the format's description has it.
+struct PcdFile {
+  int width = 0, height = 0;
+  std::vector<std::array<float, 3>> points;
+  std::vector<std::array<unsigned char, 3>> rgb;
+};
+
+PcdFile readPcd(const std::string& bytes) {
+  PcdFile pcd;
+  std::istringstream file(bytes);
+  std::map<std::string, std::vector<std::string>> header;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream words(line);
+    std::string key;
+    words >> key;
+    for (std::string word; words >> word;) header[key].push_back(word);
+    if (key == "DATA") break;
+  }
+  EXPECT_EQ(header["VERSION"].at(0), "0.7");
+  EXPECT_EQ(header["DATA"].at(0), "binary");
+  EXPECT_EQ(header["VIEWPOINT"], (std::vector<std::string>{"0", "0", "0", "1", "0", "0", "0"}));
+  pcd.width = std::stoi(header["WIDTH"].at(0));
+  pcd.height = std::stoi(header["HEIGHT"].at(0));
+  EXPECT_EQ(header["POINTS"].at(0), std::to_string(pcd.width * pcd.height));
+  for (int i = 0; i < pcd.width * pcd.height; ++i) {
+    std::array<float, 3> xyz{};
+    std::array<unsigned char, 3> color{};
+    for (std::size_t field = 0; field < header["FIELDS"].size(); ++field) {
+      EXPECT_EQ(header["SIZE"].at(field) + header["TYPE"].at(field) + header["COUNT"].at(field), "4F1");
+      unsigned char raw[4];
+      EXPECT_TRUE(file.read(reinterpret_cast<char*>(raw), sizeof raw));
+      const std::string& name = header["FIELDS"][field];
+      if (name == "rgb")
+        color = {raw[2], raw[1], raw[0]};
+      else
+        std::memcpy(&xyz.at(name.at(0) - 'x'), raw, sizeof raw);
+    }
+    pcd.points.push_back(xyz);
+    pcd.rgb.push_back(color);
+  }
+  EXPECT_EQ(file.peek(), EOF);
+  return pcd;
+}
+
+TEST(Pcd, IsOrganisedAsTheImageIs) {
+  const cv::Mat disparity = (cv::Mat_<float>(2, 3) << 10, kNan, 0, 20, 40, 50);
+  cv::Mat colors(2, 3, CV_8UC3, cv::Scalar(1, 2, 3));
+  colors.at<cv::Vec3b>(1, 1) = {200, 150, 255};
+  const PcdFile pcd = readPcd(encodePcd(disparity, colors, calibration(3, 2)));
+  ASSERT_EQ(pcd.width, 3);
+  ASSERT_EQ(pcd.height, 2);
+  const float expected[6][3] = {{-0.06f, -0.02f, 10}, {kNan, kNan, kNan}, {kNan, kNan, kNan},
+                                {-0.03f, 0, 5},       {-0.01f, 0, 2.5f},  {-0.004f, 0, 2}};
+  for (int i = 0; i < 6; ++i)
+    for (int axis = 0; axis < 3; ++axis)
+      if (std::isnan(expected[i][axis]))
+        EXPECT_TRUE(std::isnan(pcd.points[i][axis])) << i;
+      else
+        EXPECT_FLOAT_EQ(pcd.points[i][axis], expected[i][axis]) << i << ' ' << axis;
+  EXPECT_EQ(pcd.rgb[0], (std::array<unsigned char, 3>{3, 2, 1}));
+  EXPECT_EQ(pcd.rgb[4], (std::array<unsigned char, 3>{255, 150, 200}));
+}
+
+TEST(Points, AreThoseOfPointAt) {
+  constexpr int kWidth = 37, kHeight = 5;  // no multiple of a vector
+  StereoCalibration c = calibration(kWidth, kHeight);
+  c.doffs_px = 1.5;
+  cv::Mat1f disparity(kHeight, kWidth);
+  cv::RNG(3).fill(disparity, cv::RNG::UNIFORM, -3, 40);
+  disparity(2, 7) = kNan;
+  const cv::Mat points = pointsFromDisparity(disparity, c);
+  ASSERT_EQ(points.type(), CV_32FC3);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const double z = depthAt(disparity(y, x), c);
+      const cv::Vec3d expected = pointAt(x, y, z, c);
+      const auto& point = points.at<cv::Vec3f>(y, x);
+      for (int axis = 0; axis < 3; ++axis)
+        if (std::isnan(z))
+          EXPECT_TRUE(std::isnan(point[axis])) << x << ' ' << y;
+        else
+          EXPECT_NEAR(point[axis], expected[axis], 1e-6 * z) << x << ' ' << y << ' ' << axis;
+    }
+}
+
+TEST(DepthSigma, IsWhatTheDepthChangesBy) {
+  StereoCalibration c = calibration();
+  c.doffs_px = 2;
+  const cv::Mat disparity = (cv::Mat_<float>(1, 4) << 10, 48, kNan, -3);
+  const cv::Mat sigma_px = (cv::Mat_<float>(1, 4) << 0.02f, 0.1f, kNan, 0.1f);
+  const cv::Mat sigma = depthSigma(disparity, sigma_px, c);
+  ASSERT_EQ(sigma.type(), CV_32FC1);
+  for (int x = 0; x < 2; ++x) {
+    const double d = disparity.at<float>(x), s = sigma_px.at<float>(x);
+    EXPECT_NEAR(sigma.at<float>(x), (depthAt(d - s, c) - depthAt(d + s, c)) / 2, 1e-5) << x;
+  }
+  EXPECT_TRUE(std::isnan(sigma.at<float>(2)));
+  EXPECT_TRUE(std::isnan(sigma.at<float>(3)));
+  EXPECT_THROW(depthSigma(disparity, cv::Mat(1, 3, CV_32F), c), std::invalid_argument);
+  EXPECT_THROW(depthSigma(disparity, cv::Mat(), c), std::invalid_argument);
+}
+
 TEST(Ply, RefusesColoursThatDoNotMatch) {
   const cv::Mat disparity(2, 2, CV_32F, cv::Scalar(1));
   EXPECT_THROW(encodePly(disparity, cv::Mat(2, 3, CV_8UC3), calibration()), std::invalid_argument);
   EXPECT_THROW(encodePly(disparity, cv::Mat(2, 2, CV_8UC1), calibration()), std::invalid_argument);
+  EXPECT_THROW(encodePcd(disparity, cv::Mat(2, 3, CV_8UC3), calibration()), std::invalid_argument);
 }
 
 }  // namespace

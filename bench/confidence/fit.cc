@@ -1,6 +1,6 @@
 // Fits confidence and sigma_px (engine/trust.cc) on rendered scenes: no real scene is learned.
 //
-// The scenes are made harder than they are rendered, in ways real ones are: surfaces lose up to 80 % of their
+// The scenes are made harder than they are rendered, in ways real ones are: surfaces lose up to 95 % of their
 // contrast, and the views get noise, blur, a difference of gain, and lines that are off by a fraction of a
 // pixel, as calibrations leave them. Truth is exact. Presets are pooled. The measured pixels are counted in
 // cells of equal features; a logistic regression gives the log odds of being right to within a pixel, a
@@ -11,7 +11,6 @@
 #include <cstdio>
 #include <map>
 #include <opencv2/imgproc.hpp>
-#include <tuple>
 #include <vector>
 
 #include "core/cpu.h"
@@ -28,7 +27,7 @@ namespace {
 constexpr int kDisparities = 64;
 constexpr double kWithinOneSigma = 0.6827;
 constexpr double kCalibrationError_px = 0.3;
-constexpr int kTerms = 6;  // as in engine/trust.cc: constant, margin, its square, curvature, residual, none
+constexpr int kTerms = 6;  // those of engine/trust.cc
 using Terms = std::array<double, kTerms>;
 
 /// Pixels alike.
@@ -45,16 +44,15 @@ struct Cell {
     return *at;
   }
 };
-using Key = std::tuple<int, int, int>;  // margin, curvature, residual
 struct Cells {
-  std::map<Key, Cell> measured;
+  std::map<int, Cell> measured;  // by the code of their features
   std::map<PixelState, Cell> filled;
 };
 
 SceneDescription fadedScene(const char* name, std::uint64_t seed, cv::RNG& random) {
   SceneDescription scene = namedScene(name, seed, 640, 400, 56);
   for (Surface& surface : scene.surfaces) {
-    const double contrast = std::pow(10.0, random.uniform(-0.7, 0.0));
+    const double contrast = std::pow(10.0, random.uniform(-1.3, 0.0));
     surface.paint.second_bgr =
         surface.paint.first_bgr + contrast * (surface.paint.second_bgr - surface.paint.first_bgr);
   }
@@ -95,23 +93,26 @@ void collect(const char* preset, const cv::Mat& left, const cv::Mat& right, cons
   StageClock untimed;
   pipeline.run(input.views(), {}, untimed);
   const MatchMaps& maps = pipeline.maps();
+  std::uint16_t codes[kTrustChunk];
   for (int y = 0; y < truth.rows; ++y)
     for (int x = 0; x < truth.cols; ++x) {
+      if (x % kTrustChunk == 0)
+        trustCodes(maps, pipeline.largestCostSum(), y, x, std::min(kTrustChunk, truth.cols - x),
+                   pipeline.filterKernels(), codes);
       const float error = std::fabs(maps.disparity.row(y)[x] - truth.at<float>(y, x));
       if (std::isnan(error)) continue;
       const auto state = static_cast<PixelState>(maps.state.row(y)[x]);
       if (state == PixelState::kMeasured) {
-        const TrustFeatures f = trustFeatures(maps, pipeline.largestCostSum(), y, x);
-        cells.measured[{f.margin, f.curvature, f.residual}].errors.push_back(error);
+        cells.measured[codes[x % kTrustChunk]].errors.push_back(error);
       } else {
         cells.filled[state].errors.push_back(error);
       }
     }
 }
 
-Terms termsOf(const Key& key) {
-  const auto [margin, curvature, residual] = key;
-  const bool none = residual == TrustFeatures::kResiduals - 1;
+Terms termsOf(int code) {
+  const auto [margin, curvature, residual] = TrustFeatures::of(code);
+  const bool none = residual == kTrustSteps - 1;
   return {1,
           static_cast<double>(margin),
           static_cast<double>(margin * margin),
@@ -146,12 +147,12 @@ struct NormalEquations {
 };
 
 /// Iteratively reweighted least squares.
-Terms fitLogOdds(std::map<Key, Cell>& cells) {
+Terms fitLogOdds(std::map<int, Cell>& cells) {
   Terms fit{2.0};
   for (int iteration = 0; iteration < 20; ++iteration) {
     NormalEquations equations;
-    for (auto& [key, cell] : cells) {
-      const Terms t = termsOf(key);
+    for (auto& [code, cell] : cells) {
+      const Terms t = termsOf(code);
       const double z = dot(fit, t), p = 1 / (1 + std::exp(-z)), weight = std::max(1e-6, p * (1 - p));
       equations.add(t, z + (cell.right() / cell.count() - p) / weight, weight * cell.count());
     }
@@ -160,16 +161,17 @@ Terms fitLogOdds(std::map<Key, Cell>& cells) {
   return fit;
 }
 
-Terms fitLogSigma(std::map<Key, Cell>& cells) {
+Terms fitLogSigma(std::map<int, Cell>& cells) {
   NormalEquations equations;
-  for (auto& [key, cell] : cells)
-    if (cell.count() >= 50) equations.add(termsOf(key), std::log(std::max(0.01, cell.sigma())), cell.count());
+  for (auto& [code, cell] : cells)
+    if (cell.count() >= 50)
+      equations.add(termsOf(code), std::log(std::max(0.01, cell.sigma())), cell.count());
   return equations.solution();
 }
 
 void print(const char* name, const Terms& fit) {
-  std::printf("%s = {%.3f, %.4f, %.5f, %.4f, %.4f, %.3f}\n", name, fit[0], fit[1], fit[2], fit[3], fit[4],
-              fit[5]);
+  std::printf("%s = {", name);
+  for (const double& term : fit) std::printf("%.5g%s", term, &term == &fit.back() ? "}\n" : ", ");
 }
 
 int fit() {

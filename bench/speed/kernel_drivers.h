@@ -62,7 +62,7 @@ struct KernelMaterial {
   MedianScratch median;
   BilateralScratch bilateral;
   WeightedMedianScratch weighted_median;
-  PlaneRefineScratch plane_refine;
+  GuidedPlane plane_refine;
   ScaleScratch scale;
   FusionScratch fusion;
   PlaneFillScratch plane_fill;

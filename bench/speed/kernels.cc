@@ -21,7 +21,7 @@ KernelTables timedTables(Isa isa) {
   TIMED(sgm, censusCost), TIMED(sgm, tableCost), TIMED(sgm, blendedCost), TIMED(sgm, support);
   TIMED(sgm, prior), TIMED(sgm, aggregateFirst), TIMED(sgm, aggregateLast);
   TIMED(sgm, refine[0]), TIMED(sgm, refine[1]), TIMED(sgm, refine[2]), TIMED(sgm, refine[3]);
-  TIMED(filters, metDisparities), TIMED(filters, matches);
+  TIMED(filters, metDisparities), TIMED(filters, matches), TIMED(filters, trustCodes);
   TIMED(filters, breaks), TIMED(filters, links);
   TIMED(filters, median3x3), TIMED(filters, median5x5), TIMED(filters, jointBilateral);
   TIMED(filters, nearJumps), TIMED(filters, weightedMedian);

@@ -8,6 +8,7 @@
 #include "filters/kernels/median.inl"
 #include "filters/kernels/plane_refine.inl"
 #include "filters/kernels/speckle.inl"
+#include "filters/kernels/trust.inl"
 #include "filters/kernels/weighted_median.inl"
 
 namespace pomona {
@@ -15,6 +16,7 @@ namespace {
 
 constexpr FilterKernels kTable = {.metDisparities = metDisparitiesOf,
                                   .matches = matchesOf,
+                                  .trustCodes = trustCodesOf,
                                   .breaks = breaksOf,
                                   .links = linksOf,
                                   .median3x3 = medianRow<3>,

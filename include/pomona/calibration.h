@@ -20,7 +20,16 @@ struct StereoCalibration {
 };
 
 /// CV_32F metres along the optical axis (REP-118): NaN where the disparity is unknown, or where d + doffs <=
-/// 0.
+/// 0. This and the next two throw std::invalid_argument if `calibration` is not valid, or for a map that is
+/// not CV_32F and of the calibration's size.
 cv::Mat depthFromDisparity(const cv::Mat& disparity, const StereoCalibration& calibration);
+
+/// What StereoResult::sigma_px means for the depth: CV_32F metres, Z^2 / (f B) sigma_px; NaN where the depth
+/// is. It holds while sigma_px is small beside d + doffs.
+cv::Mat depthSigma(const cv::Mat& disparity, const cv::Mat& sigma_px, const StereoCalibration& calibration);
+
+/// The organised point cloud: CV_32FC3, for each pixel (X, Y, Z) in metres in the left camera's frame, X
+/// right, Y down, Z forward; three NaN where the depth is unknown.
+cv::Mat pointsFromDisparity(const cv::Mat& disparity, const StereoCalibration& calibration);
 
 }  // namespace pomona

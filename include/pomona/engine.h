@@ -29,8 +29,8 @@ class StereoEngine {
   /// CV_16U with 1 or 3 channels (BGR), any stride; of 16-bit values, those stages that work on 8 bits use
   /// the upper ones of the bits that all but a thousandth of the values fit in. `mask`: empty, or CV_8U of
   /// the same size; pixels that are 0 are neither measured nor filled. The result shares its maps with the
-  /// engine: they stay valid until the next call; clone() what must last. Throws std::invalid_argument for
-  /// unusable input.
+  /// engine: they stay valid until the next call, and their rows may be apart; clone() what must last. Throws
+  /// std::invalid_argument for unusable input.
   const StereoResult& compute(const cv::Mat& left, const cv::Mat& right, const cv::Mat& mask = {});
 
   const Options& options() const;

@@ -63,7 +63,7 @@ struct ValidationOptions {
   float speckle_step_px = 1.0f;
   int median_size = 3;  ///< 0 (off), 3 or 5
   /// Sparse maps only, after all else: what is less likely than this to be right to within a pixel becomes
-  /// kAmbiguous. 0 (off) to 1; 0.9 is strict, 0.98 keeps the best.
+  /// kAmbiguous. 0 (off) to 1; 0.9 drops little, 0.95 is strict, 0.98 keeps the best only.
   float min_confidence = 0;
 };
 

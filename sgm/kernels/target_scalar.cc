@@ -1,23 +1,9 @@
 #include "core/simd/scalar.h"
-#include "sgm/kernels/aggregate.inl"
-#include "sgm/kernels/cost.inl"
-#include "sgm/kernels/features.inl"
-#include "sgm/kernels/refine.inl"
+#include "sgm/kernels/table.inl"
 
 namespace pomona {
+
 extern const SgmKernels kSgmKernelsScalar;
-const SgmKernels kSgmKernelsScalar = {.vector_bytes = simd::kBytes,
-                                      .census8 = censusRow<std::uint8_t>,
-                                      .census16 = censusRow<std::uint16_t>,
-                                      .sobel = sobelRow,
-                                      .colorSteps = colorStepRow,
-                                      .censusCost = censusCost,
-                                      .tableCost = tableCost,
-                                      .blendedCost = blendedCost,
-                                      .support = support,
-                                      .prior = prior,
-                                      .aggregateFirst = aggregateFirst,
-                                      .refine = {refineRow<NoOffset>, refineRow<ParabolaOffset>,
-                                                 refineRow<EquiangularOffset>, refineRow<FittedOffset>},
-                                      .aggregateLast = aggregateLast};
+const SgmKernels kSgmKernelsScalar = kTable;
+
 }  // namespace pomona

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/image.h"
-#include "pomona/disparity.h"
+#include "pomona/pixel_state.h"
 
 namespace pomona::reference {
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "pomona/disparity.h"
+#include "pomona/pixel_state.h"
 
 namespace pomona::reference {
 

@@ -1,0 +1,208 @@
+#include "camera/sphere_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "camera/errors_alike.h"
+#include "camera/votes.h"
+
+namespace pomona {
+namespace {
+
+struct Hypothesis {
+  double x_px, y_px, radius_px;
+};
+
+struct Candidate {
+  Hypothesis hypothesis;
+  double parallax_px = 0;  // of the centre, along its bearing
+  double score = 0;
+};
+
+// How hypotheses fare with the samples.
+class SphereVotes {
+ public:
+  SphereVotes(const RegionSamples& region, const RadiusPrior& prior, const StereoCalibration& calibration)
+      : samples_(region.samples), prior_(prior), calibration_(calibration), votes_(largestParallax(region)) {}
+
+  /// Each sample votes for the parallax that the sphere's centre has if the sample lies on it.
+  void cast(const Hypothesis& h) {
+    const cv::Vec3d bearing = bearingOf(h);
+    const double cos_alpha = std::cos(h.radius_px / calibration_.focal_px);
+    const double cos_alpha2 = cos_alpha * cos_alpha;
+    votes_.clear();
+    for (const SurfaceSample& s : samples_) {
+      const double c = s.ray.dot(bearing);
+      if (c <= cos_alpha) continue;
+      votes_.add(s.parallax_px * s.ray[2] * cos_alpha2 / (c + std::sqrt(c * c - cos_alpha2)),
+                 s.central_trust);
+    }
+  }
+
+  /// What most of the last cast's votes agree on, other than on `parallax_px`.
+  Candidate candidate(const Hypothesis& h, double parallax_px = -10) const {
+    const Votes::Peak peak = votes_.peak(parallax_px);
+    return {h, peak.position, peak.weight * plausibility(h, peak.position)};
+  }
+
+  FittedSphere sphereOf(const Candidate& candidate) const {
+    const double distance_m = calibration_.focal_px * calibration_.baseline_m / candidate.parallax_px;
+    FittedSphere sphere;
+    sphere.center_m = bearingOf(candidate.hypothesis) * distance_m;
+    sphere.radius_m = distance_m * std::sin(candidate.hypothesis.radius_px / calibration_.focal_px);
+    return sphere;
+  }
+
+ private:
+  cv::Vec3d bearingOf(const Hypothesis& h) const {
+    const cv::Vec3d direction((h.x_px - calibration_.cx_px) / calibration_.focal_px,
+                              (h.y_px - calibration_.cy_px) / calibration_.focal_px, 1);
+    return direction * (1 / cv::norm(direction));
+  }
+
+  // By the radius that it would have, if one is expected; hypotheses are not closer than a seventh.
+  double plausibility(const Hypothesis& h, double parallax_px) const {
+    if (prior_.radius_m <= 0 || parallax_px <= 0) return 1;
+    const double radius_m = calibration_.baseline_m * calibration_.focal_px / parallax_px *
+                            std::sin(h.radius_px / calibration_.focal_px);
+    const double off = (radius_m - prior_.radius_m) / std::hypot(prior_.sigma_m, prior_.radius_m / 7);
+    return std::exp(-0.5 * off * off);
+  }
+
+  const std::vector<SurfaceSample>& samples_;
+  const RadiusPrior& prior_;
+  const StereoCalibration& calibration_;
+  Votes votes_;
+};
+
+// The radius that the outline tells of, where nothing else does: an object may fill it, or half of it, or be
+// cut off by it. Standard deviation as a share of the radius.
+constexpr double kRoughly = 0.3;
+
+double centralTrust(const RegionSamples& region) {
+  double sum = 0;
+  for (const SurfaceSample& s : region.samples) sum += s.central_trust;
+  return sum;
+}
+
+// One pass of Gauss-Newton.
+struct NormalEquations {
+  cv::Matx44d information = cv::Matx44d::zeros();
+  cv::Vec4d gradient = cv::Vec4d::all(0);
+  double squares = 0, trust = 0, pixels = 0;   // of the samples on the sphere
+  double central_trust = 0, seen_through = 0;  // of those, and of those behind it
+
+  void add(const cv::Vec4d& jacobian, double residual, double weight) {
+    information += jacobian * jacobian.t() * weight;
+    gradient += jacobian * (weight * residual);
+  }
+};
+
+NormalEquations normalEquations(const FittedSphere& sphere, const RegionSamples& region, double most_reach_px,
+                                const StereoCalibration& calibration) {
+  constexpr double kSteepest = 0.45;  // cosine of the slant against the line of sight
+  constexpr double kLeastReach_px = 0.6;
+  const double focal_baseline = calibration.focal_px * calibration.baseline_m;
+  const double independent = region.pixels_each / kAlike_px;
+  NormalEquations equations;
+  for (const SurfaceSample& s : region.samples) {
+    const double along = s.ray.dot(sphere.center_m);
+    const double inside =
+        along * along - sphere.center_m.dot(sphere.center_m) + sphere.radius_m * sphere.radius_m;
+    const double depth_in_sphere = inside > 0 ? std::sqrt(inside) : 0;  // half of the chord
+    if (depth_in_sphere < kSteepest * sphere.radius_m) continue;
+    const double t = along - depth_in_sphere;
+    const double parallax_px = focal_baseline / (t * s.ray[2]);
+    const double residual = s.parallax_px - parallax_px;
+    const double sigma_px = std::max(s.sigma_px, kSmallestSigma_px);
+    const double reach_px = std::clamp(3 * sigma_px, kLeastReach_px, most_reach_px);
+    if (residual <= -reach_px) equations.seen_through += s.central_trust;
+    if (std::abs(residual) >= reach_px) continue;
+    const double u = residual / reach_px, biweight = (1 - u * u) * (1 - u * u);
+    const double weight = s.trust * biweight / (sigma_px * sigma_px);
+    const cv::Vec3d normal = (s.ray * t - sphere.center_m) * (1 / sphere.radius_m);
+    const double scale = parallax_px / t / (depth_in_sphere / sphere.radius_m);  // -dp/dt / -(r n)
+    const cv::Vec4d jacobian(scale * normal[0], scale * normal[1], scale * normal[2], scale);
+    equations.add(jacobian, residual, weight * independent);
+    equations.squares += weight * residual * residual;
+    equations.trust += s.trust * biweight;
+    equations.central_trust += s.central_trust * biweight;
+    equations.pixels += region.pixels_each;
+  }
+  return equations;
+}
+
+}  // namespace
+
+std::vector<FittedSphere> vote(const RegionSamples& region, const Outline& outline, const RadiusPrior& prior,
+                               const StereoCalibration& calibration) {
+  constexpr double kStep = 0.3, kRatio = 1.33;  // of the outline's radius; between radii
+  constexpr double kApart_px = 2;
+  SphereVotes votes(region, prior, calibration);
+  std::vector<Candidate> coarse;
+  for (int dy = -2; dy <= 2; ++dy)
+    for (int dx = -2; dx <= 2; ++dx)
+      for (int power = -2; power <= 1; ++power) {
+        const Hypothesis h{outline.center_px.x + dx * kStep * outline.radius_px,
+                           outline.center_px.y + dy * kStep * outline.radius_px,
+                           outline.radius_px * std::pow(kRatio, power)};
+        votes.cast(h);
+        coarse.push_back(votes.candidate(h));
+        coarse.push_back(votes.candidate(h, coarse.back().parallax_px));
+      }
+  std::stable_sort(coarse.begin(), coarse.end(),
+                   [](const auto& a, const auto& b) { return a.score > b.score; });
+
+  std::vector<Candidate> best;
+  for (const Candidate& c : coarse) {
+    const auto same = [&](const Candidate& b) { return std::abs(b.parallax_px - c.parallax_px) < kApart_px; };
+    if (c.score > 0 && best.size() < 4 && std::none_of(best.begin(), best.end(), same)) best.push_back(c);
+  }
+  std::vector<FittedSphere> spheres;
+  for (const Candidate& c : best) spheres.push_back(votes.sphereOf(c));
+  return spheres;
+}
+
+std::optional<FittedSphere> refine(const FittedSphere& guess, const RegionSamples& region,
+                                   const Outline& outline, const RadiusPrior& prior,
+                                   const StereoCalibration& calibration) {
+  constexpr int kRounds = 7;
+  constexpr double kFirstReach_px = 2, kLastReach_px = 1;
+  constexpr double kSmallest = 0.4, kLargest = 1.4, kSigmas = 3;  // of the outline's radius; of the prior's
+  FittedSphere sphere = guess;
+  for (int round = 0;; ++round) {
+    const double reach_px = std::max(kFirstReach_px - 0.2 * round, kLastReach_px);
+    NormalEquations equations = normalEquations(sphere, region, reach_px, calibration);
+    const double distance_m = cv::norm(sphere.center_m);
+    const double outline_m = outline.radius_px / calibration.focal_px * distance_m;
+    const RadiusPrior radius = prior.radius_m > 0 ? prior : RadiusPrior{outline_m, kRoughly * outline_m};
+    equations.add({0, 0, 0, 1}, radius.radius_m - sphere.radius_m, 1 / (radius.sigma_m * radius.sigma_m));
+    // Little is seen of some: then all that is known of their sides is that they are in the outline.
+    for (int axis = 0; axis < 2; ++axis) equations.information(axis, axis) += 1 / (outline_m * outline_m);
+    bool solved = false;
+    const cv::Matx44d covariance = equations.information.inv(cv::DECOMP_CHOLESKY, &solved);
+    if (!solved || equations.pixels == 0) return {};
+    if (round == kRounds) {
+      sphere.covariance = covariance * std::max(1.0, equations.squares / equations.trust);
+      sphere.support_px = equations.pixels;
+      const double off = (sphere.radius_m - radius.radius_m) / radius.sigma_m;
+      sphere.score =
+          (equations.central_trust - equations.seen_through) / centralTrust(region) / (1 + 0.5 * off * off);
+      return sphere;
+    }
+    cv::Vec4d step = covariance * equations.gradient;
+    const double longest = std::sqrt(step.dot(step)), limit = 0.5 * sphere.radius_m;
+    if (longest > limit) step *= limit / longest;
+    for (int axis = 0; axis < 3; ++axis) sphere.center_m[axis] += step[axis];
+    const double smallest_m =
+        prior.radius_m > 0 ? prior.radius_m - kSigmas * prior.sigma_m : kSmallest * outline_m;
+    const double largest_m =
+        prior.radius_m > 0 ? prior.radius_m + kSigmas * prior.sigma_m : kLargest * outline_m;
+    sphere.radius_m = std::clamp(sphere.radius_m + step[3], smallest_m, largest_m);
+    if (sphere.radius_m <= 0) return {};
+    if (!(sphere.center_m[2] > sphere.radius_m)) return {};
+  }
+}
+
+}  // namespace pomona

@@ -1,0 +1,32 @@
+// Which value most votes agree on.
+#pragma once
+
+#include <vector>
+
+#include "camera/region.h"
+
+namespace pomona {
+
+/// A histogram of parallaxes, in pixels.
+class Votes {
+ public:
+  struct Peak {
+    double position = 0, weight = 0;
+  };
+
+  /// Values from 0 to `largest`; others are left out.
+  explicit Votes(double largest);
+
+  void clear();
+  void add(double value, double weight);
+  /// The window of 1 px with most votes: their sum and their mean. Windows that come within 2 px of
+  /// `other_than` do not count.
+  Peak peak(double other_than = -10) const;
+
+ private:
+  std::vector<double> bins_;
+};
+
+double largestParallax(const RegionSamples& region);
+
+}  // namespace pomona

@@ -1,0 +1,27 @@
+// All kernels of this folder, in the byte vocabulary (core/simd/) that the including file has chosen.
+#include "sgm/kernels.h"
+#include "sgm/kernels/aggregate.inl"
+#include "sgm/kernels/cost.inl"
+#include "sgm/kernels/features.inl"
+#include "sgm/kernels/refine.inl"
+
+namespace pomona {
+namespace {
+
+constexpr SgmKernels kTable = {.vector_bytes = simd::kBytes,
+                               .census8 = censusRow<std::uint8_t>,
+                               .census16 = censusRow<std::uint16_t>,
+                               .sobel = sobelRow,
+                               .colorSteps = colorStepRow,
+                               .censusCost = censusCost,
+                               .tableCost = tableCost,
+                               .blendedCost = blendedCost,
+                               .support = support,
+                               .prior = prior,
+                               .aggregateFirst = aggregateFirst,
+                               .refine = {refineRow<NoOffset>, refineRow<ParabolaOffset>,
+                                          refineRow<EquiangularOffset>, refineRow<FittedOffset>},
+                               .aggregateLast = aggregateLast};
+
+}  // namespace
+}  // namespace pomona

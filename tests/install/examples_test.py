@@ -1,0 +1,79 @@
+"""Runs the examples, built against the installed library, on rendered frames, and checks what they measure.
+
+Usage: examples_test.py POMONA HARVEST_ROBOT COMPUTE_DISPARITY, all paths of programs
+"""
+
+import array
+import math
+import os
+import re
+import shutil
+import statistics
+import subprocess
+import sys
+import tempfile
+
+POMONA, HARVEST, COMPUTE = sys.argv[1:]
+PICK = re.compile(r"frame (\d+)  box [\d,]+  ([\d.]+) \+- ([\d.]+) m  centre \((\S+), (\S+), (\S+)\) m  radius")
+
+
+def run(*arguments, **options):
+    return subprocess.run(arguments, check=True, capture_output=True, text=True, timeout=300, **options).stdout
+
+
+def read_pfm(path):
+    with open(path, "rb") as file:
+        file.readline()
+        width, height = map(int, file.readline().split())
+        file.readline()
+        samples = array.array("f")
+        samples.frombytes(file.read())
+    return [samples[y * width:(y + 1) * width] for y in reversed(range(height))]
+
+
+def read_calibration(path):
+    with open(path, encoding="ascii") as file:
+        values = dict(line.strip().split("=", 1) for line in file if "=" in line)
+    focal, _, cx, _, _, cy = map(float, re.findall(r"[-\d.]+", values["cam0"])[:6])
+    return focal, cx, cy, float(values["baseline"]) / 1000, int(values["ndisp"])
+
+
+with tempfile.TemporaryDirectory() as folder:
+    frames = os.path.join(folder, "frames")
+    drawn = os.path.join(folder, "drawn")
+    os.mkdir(frames)
+    os.mkdir(drawn)
+    truths = []
+    for frame in range(2):
+        scene = os.path.join(folder, f"scene{frame}")
+        run(POMONA, "render", "trees" if "trees" in run(POMONA, "render", "--help") else "orchard", "--seed",
+            str(frame + 1), "--size", "800x500", "--disparities", "96", "-o", scene)
+        shutil.copy(os.path.join(scene, "im0.png"), os.path.join(frames, f"left{frame}.png"))
+        shutil.copy(os.path.join(scene, "im1.png"), os.path.join(frames, f"right{frame}.png"))
+        truths.append(read_pfm(os.path.join(scene, "disp0GT.pfm")))
+    calibration = os.path.join(scene, "calib.txt")
+    focal, cx, cy, baseline, disparities = read_calibration(calibration)
+
+    nearest, farthest = focal * baseline / disparities, focal * baseline / 10
+    text = run(HARVEST, calibration, frames, drawn,
+               env={**os.environ, "HARVEST_NEAREST_M": str(nearest), "HARVEST_FARTHEST_M": str(farthest)})
+    print(text, end="")
+    errors = []
+    for frame, distance, sigma, x, y, z in PICK.findall(text):
+        x, y, z = float(x), float(y), float(z)
+        true = truths[int(frame)][round(cy + focal * y / z)][round(cx + focal * x / z)]
+        along = math.sqrt(x * x + y * y + z * z) / z
+        errors.append(abs(float(distance) / (focal * baseline / true * along) - 1))
+        assert 0 < float(sigma) < 0.05 * float(distance), text
+    assert len(errors) >= 6, text
+    assert statistics.median(errors) < 0.01, errors
+    assert "frames per second, latency p50" in text, text
+    assert sorted(os.listdir(drawn)) == ["frame0000.png", "frame0001.png"]
+
+    out = os.path.join(folder, "disparity.png")
+    run(COMPUTE, os.path.join(frames, "left0.png"), os.path.join(frames, "right0.png"), out)
+    # pomona itself reads it as the truth of its own map.
+    text = run(POMONA, "compute", os.path.join(frames, "left0.png"), os.path.join(frames, "right0.png"), "-o",
+               os.path.join(folder, "own.pfm"), "--gt", out)
+    assert float(re.search(r"average error ([\d.]+) px", text).group(1)) < 0.01, text
+print(f"{len(errors)} fruits, median error {100 * statistics.median(errors):.2f} %")
