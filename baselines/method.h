@@ -63,6 +63,9 @@ struct MethodInfo {
 /// asw), and OpenCV's matchers (opencv-...).
 std::span<const MethodInfo> methods();
 
+/// Pomona's presets alone, the fastest first, `paper` last.
+std::span<const MethodInfo> presetMethods();
+
 /// Throws std::invalid_argument for an unknown name; the message lists those that are known.
 std::unique_ptr<Method> makeMethod(std::string_view name);
 

@@ -9,8 +9,6 @@
 
 namespace pomona {
 
-std::span<const MethodInfo> presetMethods();
-
 namespace {
 
 class Preset : public Method {

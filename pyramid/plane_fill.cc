@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 
 #include "core/parallel.h"
@@ -15,6 +16,7 @@ using Cell = SegmentCells::Cell;
 using Pixel = SegmentCells::Pixel;
 
 constexpr int kMinSegmentsPerStrip = 8;
+constexpr int kMinRowsPerStrip = 32;
 constexpr int kMinSegment_px = 100;
 constexpr int kMinSources = 24;
 constexpr float kMinInlierRatio = 0.5f;
@@ -27,9 +29,9 @@ constexpr std::array<Division, 2> kDivisions = {{{150, 0.3f}, {1350, 0.02f}}};
 
 class PlaneFiller {
  public:
-  PlaneFiller(const PlaneFillInput& in, SegmentCells& cells, ImageView<float> disparity,
-              ImageView<std::uint8_t> state, const PyramidKernels& kernels)
-      : in_(in), cells_(cells), disparity_(disparity), state_(state), kernels_(kernels) {}
+  PlaneFiller(const PlaneFillInput& in, SegmentCells& cells, const ViewBorder& border,
+              ImageView<float> disparity, ImageView<std::uint8_t> state, const PyramidKernels& kernels)
+      : in_(in), cells_(cells), border_(border), disparity_(disparity), state_(state), kernels_(kernels) {}
 
   // Reads and writes pixels of the segment only: segments may be filled in any order.
   void fill(std::span<const Cell> segment, float min_coverage, std::uint32_t seed) {
@@ -50,6 +52,16 @@ class PlaneFiller {
       return;
     for (const Cell c : segment)
       if (cells_.holes(c) > 0) fillCell(c, origin, fit);
+  }
+
+  // The holes of a row beyond the border that share a segment with the source there.
+  void continueLevel(int y, const Buffer<std::int32_t>& labels) {
+    for (int x = 0; x < disparity_.width; ++x) {
+      const ViewBorder::Source* source = border_.before(y, x);
+      if (source != nullptr && isHole(disparity_.at(y, x), state_.at(y, x)) &&
+          labels[cells_.indexOf({x, y})] == labels[cells_.indexOf({source->x, y})])
+        fillIfPossible({x, y}, source->disparity);
+    }
   }
 
  private:
@@ -78,18 +90,30 @@ class PlaneFiller {
       const float e =
           std::clamp(fit.plane.at(static_cast<float>(p.x - origin.x), static_cast<float>(p.y - origin.y)),
                      fit.low - kPlaneTolerance_px, fit.high + kPlaneTolerance_px);
-      const bool is_possible = e >= in_.min_disparity && e <= in_.max_disparity &&
-                               !wouldHideFromRight(in_.right_disparity, p.y, p.x, e);
-      open += !is_possible;
-      if (!is_possible) return;
-      disparity_.at(p.y, p.x) = e;
-      state_.at(p.y, p.x) = static_cast<std::uint8_t>(PixelState::kFilledPlane);
+      open += leavesBorderSource(p, origin, fit.plane) || !fillIfPossible(p, e);
     });
     cells_.setHoles(cell, open);
   }
 
+  bool leavesBorderSource(Pixel p, Pixel origin, const DisparityPlane& plane) const {
+    const ViewBorder::Source* source = border_.before(p.y, p.x);
+    if (source == nullptr) return false;
+    const float e = plane.at(static_cast<float>(source->x - origin.x), static_cast<float>(p.y - origin.y));
+    return !(std::abs(e - source->disparity) < kPlaneTolerance_px);
+  }
+
+  bool fillIfPossible(Pixel p, float e) {
+    if (!(e >= in_.min_disparity && e <= in_.max_disparity) ||
+        wouldHideFromRight(in_.right_disparity, p.y, p.x, e))
+      return false;
+    disparity_.at(p.y, p.x) = e;
+    state_.at(p.y, p.x) = static_cast<std::uint8_t>(PixelState::kFilledPlane);
+    return true;
+  }
+
   const PlaneFillInput& in_;
   SegmentCells& cells_;
+  const ViewBorder& border_;
   ImageView<float> disparity_;
   ImageView<std::uint8_t> state_;
   const PyramidKernels& kernels_;
@@ -117,7 +141,8 @@ void fillFromPlanes(const PlaneFillInput& in, ImageView<float> disparity, ImageV
     s.count = segment(scratch.edges, {k, min_size}, s.labels, s.segmentation);
   });
 
-  PlaneFiller filler(in, cells, disparity, state, kernels);
+  scratch.border.find(disparity, state, threads);
+  PlaneFiller filler(in, cells, scratch.border, disparity, state, kernels);
   for (std::size_t i = 0; i < kDivisions.size(); ++i) {
     const PlaneFillScratch::Segments& s = scratch.divisions[i];
     cells.group(s.labels, s.count);
@@ -126,6 +151,9 @@ void fillFromPlanes(const PlaneFillInput& in, ImageView<float> disparity, ImageV
         filler.fill(cells.segment(j), kDivisions[i].min_coverage, static_cast<std::uint32_t>(j));
     });
   }
+  parallelStrips(threads, disparity.height, kMinRowsPerStrip, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) filler.continueLevel(y, scratch.divisions.back().labels);
+  });
 }
 
 }  // namespace pomona

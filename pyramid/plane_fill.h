@@ -9,6 +9,7 @@
 #include "pyramid/scale.h"
 #include "pyramid/segment_cells.h"
 #include "pyramid/segmentation.h"
+#include "pyramid/view_border.h"
 
 namespace pomona {
 
@@ -33,6 +34,7 @@ struct PlaneFillScratch {
   SortedEdges edges;
   std::array<Segments, 2> divisions;
   SegmentCells cells;
+  ViewBorder border;
 };
 
 /// Fills holes (see holes.h) of `disparity` in place and gives them state kFilledPlane. Other pixels keep
@@ -45,7 +47,9 @@ struct PlaneFillScratch {
 /// the coarse division), and if half of them lie near the plane. Its holes take the plane's disparities, but
 /// none more than 1 px beyond those of the sources near the plane, where they are within the range and hide
 /// nothing that the right view sees. The fine division comes first; the coarse one fills what it leaves, from
-/// measured pixels again. The result does not depend on the number of threads.
+/// measured pixels again. Holes beyond the border of the right view (see view_border.h) take no plane that is
+/// 1 px or more off the source that they lie beyond; what both divisions leave of them takes that source's
+/// disparity, if it belongs to the same coarse segment. The result does not depend on the number of threads.
 void fillFromPlanes(const PlaneFillInput& in, ImageView<float> disparity, ImageView<std::uint8_t> state,
                     PlaneFillScratch& scratch, const PyramidKernels& kernels, int threads);
 

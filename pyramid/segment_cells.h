@@ -33,6 +33,11 @@ class SegmentCells {
   int sources(Cell c) const { return sources_[index(c)]; }
   int holes(Cell c) const { return holes_[index(c)]; }
   void setHoles(Cell c, int holes) { holes_[index(c)] = static_cast<std::uint8_t>(holes); }
+  /// Place of the pixel's cell among the labels.
+  std::size_t indexOf(Pixel p) const {
+    return index({static_cast<std::uint16_t>(std::int64_t{p.x} * columns_ / column_begin_[columns_]),
+                  static_cast<std::uint16_t>(std::int64_t{p.y} * rows_ / row_begin_[rows_])});
+  }
   Pixel firstPixel(Cell c) const { return {column_begin_[c.x], row_begin_[c.y]}; }
 
   /// The first pixel, row by row, for which is_wanted(pixel); there must be one.

@@ -106,10 +106,10 @@ TEST(Engine, WholeFrameGoldenHashes) {
     return hashOf(computeDisparity(pair.left.image, pair.right.image, makeOptions(preset, 45, mode)));
   };
   EXPECT_EQ(hash("fast", OutputMode::kSparse), 9792597548047722120u);
-  EXPECT_EQ(hash("fast", OutputMode::kDense), 12585722677226191097u);
+  EXPECT_EQ(hash("fast", OutputMode::kDense), 2388589926769983813u);
   EXPECT_EQ(hash("balanced", OutputMode::kSparse), 6023207272991326325u);
-  EXPECT_EQ(hash("balanced", OutputMode::kDense), 5356523012644056283u);
-  EXPECT_EQ(hash("quality", OutputMode::kDense), 9829756490807918444u);
+  EXPECT_EQ(hash("balanced", OutputMode::kDense), 16533857595060369009u);
+  EXPECT_EQ(hash("quality", OutputMode::kDense), 16248278819585334180u);
 }
 
 TEST(Engine, AnEngineGivesTheSameFrameAfterFrameOfAnySize) {

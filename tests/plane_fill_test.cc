@@ -122,6 +122,45 @@ TEST(FillFromPlanes, LeavesWhatTheRightViewContradicts) {
     }
 }
 
+// A dark surface at 5 px, measured in the lower half; in the upper half only its first `band` columns are
+// there, unmeasured, beside a bright one at 20 px.
+Scene darkBand(int band) {
+  Scene s;
+  s.guide.fill([&](int y, int x, int) { return static_cast<std::uint8_t>(y >= 48 || x < band ? 60 : 190); });
+  s.disparity.fill([](int y, int, int) { return y >= 48 ? 5.0f : 20.0f; });
+  s.digBox(0, 0, 48, band, PixelState::kOutOfRange);
+  return s;
+}
+
+TEST(FillFromPlanes, WhatTheRightViewsBorderCutsOffTakesNoPlaneThatLeavesTheSurfaceThere) {
+  Scene inside = darkBand(24);  // the bright surface begins at column 4 of the right view: it ends there
+  inside.fill();
+  Scene border = darkBand(20);  // at column 0: it may go on, and the dark plane has no claim
+  border.fill();
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 16; ++x) {
+      ASSERT_EQ(inside.disparity.at(y, x), 5) << x << ' ' << y;
+      ASSERT_EQ(border.stateAt(y, x), PixelState::kOutOfRange) << x << ' ' << y;
+    }
+}
+
+TEST(FillFromPlanes, WhatNoPlaneClaimsBeyondTheRightViewsBorderContinuesLevelWithinItsSegment) {
+  for (const bool is_right : {false, true}) {  // the right end is cut off where disparities are negative
+    Scene s;
+    s.min_disparity = -63;
+    s.guide.fill([](int, int, int) { return std::uint8_t{100}; });
+    const float d = is_right ? -20 : 20;
+    s.disparity.fill([&](int y, int, int) { return y >= 30 ? 0.5f * d : d; });  // most of it lies farther off
+    s.digBox(0, is_right ? 172 : 0, 24, 20, PixelState::kOutOfRange);
+    s.fill();
+    for (int y = 0; y < 24; ++y)
+      for (int i = 0; i < 20; ++i) {
+        ASSERT_EQ(s.disparity.at(y, is_right ? 172 + i : i), d) << i << ' ' << y;
+        ASSERT_EQ(s.stateAt(y, is_right ? 172 + i : i), PixelState::kFilledPlane);
+      }
+  }
+}
+
 TEST(FillFromPlanes, FillsWithinTheRangeOnly) {
   Scene s;
   s.digBox(10, 10, 60, 60, PixelState::kOccluded);
@@ -168,7 +207,7 @@ TEST(FillFromPlanes, WithoutHolesOrWithoutSupportNothingChanges) {
   random_depth.disparity.fill([&](int, int, int) { return 0.01f * static_cast<float>(random() % 6000); });
   for (int y = 0; y < 96; ++y)
     for (int x = 0; x < 192; ++x) {
-      if (x % 2 == 0) random_depth.dig(y, x, PixelState::kMismatched);
+      if (x % 2 == 1) random_depth.dig(y, x, PixelState::kMismatched);
       bare.dig(y, x, PixelState::kOccluded);
     }
   for (Scene* s : {&whole, &random_depth, &bare}) {

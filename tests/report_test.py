@@ -94,6 +94,21 @@ class Report(unittest.TestCase):
         self.assertEqual(self.browser.run("reachOf([[[0, 1]], [[0, 2]], [[0, 100]]])"), 4 * 1.08)
         self.assertEqual(self.browser.run("reachOf([[[0, 1], [1, -3]], [[0, 2]]])"), 3 * 1.08)
 
+    def test_the_line_joins_the_presets_and_names_who_is_below(self):
+        self.assertEqual(self.browser.run("record.presets"), ["fast", "balanced"])
+        self.assertEqual(self.browser.run("shown.metric"), "bad-1")
+        self.assertEqual(self.browser.run("document.querySelectorAll('#scatter path.front').length"), 1)
+        self.assertRegex(self.browser.run("document.querySelector('#scatter p').textContent"),
+                         r"^Below our line: (none|ssd)\. Faster than all of it: (none|ssd)\.$")
+        points = "[{x: 2, y: 3}, {x: 0, y: 5}, {x: 1, y: 5}, {x: 4, y: 1}, {x: 3, y: 4}]"
+        self.assertEqual(self.browser.run(f"frontOf({points}).map((p) => p.x)"), [0, 2, 4])
+        self.assertEqual(self.browser.run(f"[0, 1, 2, 3, 4, 9].map((x) => heightAt(frontOf({points}), x))"),
+                         [5, 4, 3, 2, 1, 1])
+        self.assertTrue(self.browser.run(f"[heightAt(frontOf({points}), -0.1), heightAt([], 0)].every(Number.isNaN)"))
+        others = "[{method: 'under', x: 1, y: 3.9}, {method: 'over', x: 1, y: 4.1}, {method: 'quick', x: -1, y: 9}]"
+        self.assertEqual(self.browser.run(f"standing(frontOf({points}), {others}).textContent"),
+                         "Below our line: under. Faster than all of it: quick.")
+
     def test_needs_nothing_else(self):
         with open(self.path("report.html"), encoding="utf-8") as file:
             page = file.read()

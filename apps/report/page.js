@@ -6,7 +6,7 @@ const record = JSON.parse(document.getElementById("record").textContent);
 const COLORS = ["#2f6fed", "#e4572e", "#17a398", "#a05195", "#e09f1f", "#6a994e", "#d1495b", "#3d9bd1", "#8d6a9f",
                 "#b07d2b", "#5b6ee1", "#7d8780", "#f2739b"];
 const REGIONS = {all: "all", nocc: "non-occluded"};
-const shown = {region: record.region, metric: "bad-2", everyColumn: false, orders: {}};
+const shown = {region: record.region, metric: "bad-1", everyColumn: false, orders: {}};
 
 const byId = (id) => document.getElementById(id);
 const columnIndex = (name) => record.columns.findIndex((column) => column.name === name);
@@ -143,22 +143,51 @@ function axes(width, height, x, y) {
   return {svg, toX, toY, box};
 }
 
+/** Of points {x, y}, those that no other equals or beats in both, from left to right. */
+function frontOf(points) {
+  const sorted = [...points].sort((a, b) => a.x - b.x || a.y - b.y);
+  return sorted.filter((p, i) => sorted.slice(0, i).every((q) => q.y > p.y));
+}
+
+/** Height of the line through the points of a front: straight between them, level after the last; NaN before. */
+function heightAt(front, x) {
+  const next = front.findIndex((p) => p.x >= x);
+  if (next < 0) return front.length ? front[front.length - 1].y : NaN;
+  const [p, q] = [front[next - 1], front[next]];
+  if (!p) return q.x === x ? q.y : NaN;
+  return p.y + (q.y - p.y) * (x - p.x) / (q.x - p.x);
+}
+
+/** What the line of our presets leaves to say about the others. */
+function standing(front, others) {
+  const names = (points) => points.map((p) => p.method).join(", ") || "none";
+  return make("p", {class: "aside"}, `Below our line: ${names(others.filter((p) => p.y < heightAt(front, p.x)))}. ` +
+              `Faster than all of it: ${names(others.filter((p) => p.x < front[0].x))}.`);
+}
+
 function scatter(width) {
   const time = columnIndex("s/MP"), error = columnIndex(shown.metric), column = record.columns[error];
   const points = record.methods.map((method) => ({method, figures: record.means[method][shown.region]}))
       .filter((p) => p.figures[time] > 0 && p.figures[error] != null)
       .map((p) => ({method: p.method, x: Math.log10(p.figures[time]), y: p.figures[error]}));
   if (!points.length) return make("p", {}, "nothing to show");
-  const xs = points.map((p) => p.x), ys = points.map((p) => p.y), top = Math.max(...ys, 1e-3) * 1.12;
+  const xs = points.map((p) => p.x), top = Math.max(1e-3, reachOf(points.map((p) => [[p.x, p.y]])));
   const low = Math.min(...xs) - 0.25, high = Math.max(...xs) + 0.45;
   const {svg, toX, toY, box} = axes(width, 320,
       {low, high, ticks: logTicksOf(low, high), text: (t) => `${+(10 ** t).toPrecision(2)}`, label: "s/MP, log scale"},
       {low: 0, high: top, ticks: ticksOf(0, top, 5), text: (t) => t, label: `${column.name}, mean`});
-  const taken = points.map((p) => ({x: toX(p.x) - 6, y: toY(p.y) - 6, w: 12, h: 12}));
+  const ours = (p) => record.presets.includes(p.method);
+  const front = biggerIsBetter(column) ? [] : frontOf(points.filter(ours));
+  if (front.length) svg.append(make("path", {
+    d: `M${toX(front[0].x)} ${box.top}` + front.map((p) => `L${toX(p.x)} ${toY(p.y)}`).join("") + `H${box.right}`,
+    fill: "none", class: "front"}));
+  const shownY = (p) => toY(Math.min(p.y, top));  // what is far above the others, at the upper edge with its value
+  const nameOf = (p) => p.y > top ? `${p.method} ↑ ${text(p.y, column)}` : p.method;
+  const taken = points.map((p) => ({x: toX(p.x) - 6, y: shownY(p) - 6, w: 12, h: 12}));
   const shared = (p, q, x, w) => Math.max(0, Math.min(p[x] + p[w], q[x] + q[w]) - Math.max(p[x], q[x]));
   const covered = (p) => taken.reduce((sum, q) => sum + shared(p, q, "x", "w") * shared(p, q, "y", "h"), 0);
   for (const point of points) {
-    const px = toX(point.x), py = toY(point.y), w = point.method.length * 7.4, h = 13;
+    const px = toX(point.x), py = shownY(point), w = nameOf(point).length * 7.4, h = 13;
     const spots = [[9, -6], [-9 - w, -6], [-w / 2, -21], [-w / 2, 8], [9, 6], [9, -20], [-9 - w, 8], [-9 - w, -20],
                    [-w / 2, 22], [-w / 2, -36]];
     const places = spots.map(([dx, dy]) => ({x: px + dx, y: py + dy, w, h}));
@@ -168,9 +197,9 @@ function scatter(width) {
     taken.push(place);
     svg.append(make("circle", {cx: px, cy: py, r: 5, fill: colorOf(point.method)},
                     make("title", {}, `${point.method}: ${text(point.y, column)}, ${(10 ** point.x).toPrecision(3)} s/MP`)),
-               make("text", {class: "name", x: place.x, y: place.y + 11}, point.method));
+               make("text", {class: "name", x: place.x, y: place.y + 11}, nameOf(point)));
   }
-  return svg;
+  return front.length ? make("div", {}, svg, standing(front, points.filter((p) => !ours(p)))) : svg;
 }
 
 /** Value `k` of a curve's points at `coverage`, between them; below the first, its. */

@@ -13,6 +13,7 @@
 
 #include "apps/report/page.h"
 #include "apps/views.h"
+#include "baselines/method.h"
 
 namespace pomona {
 namespace {
@@ -132,10 +133,14 @@ Json figuresOfScene(const std::string& scene, const EvalRecord& record) {
 // What is common to all scenes.
 Json generalPart(const EvalRecord& record) {
   Json root = {{"region", name(record.region)}, {"methods", record.methods}, {"peers", Json::array()},
-               {"columns", Json::array()},      {"facts", Json::array()},    {"problems", record.problems},
-               {"remarks", record.remarks},     {"palettes", palettes()},    {"errorLimit", kErrorLimit_px}};
+               {"presets", Json::array()},      {"columns", Json::array()},  {"facts", Json::array()},
+               {"problems", record.problems},   {"remarks", record.remarks}, {"palettes", palettes()},
+               {"errorLimit", kErrorLimit_px}};
   for (const std::string& method : record.methods)
     if (method.starts_with("opencv")) root["peers"].push_back(method);
+  for (const MethodInfo& preset : presetMethods())
+    if (std::find(record.methods.begin(), record.methods.end(), preset.name) != record.methods.end())
+      root["presets"].push_back(preset.name);
   for (const FigureColumn& column : figureColumns())
     root["columns"].push_back({{"name", column.name},
                                {"description", column.description},

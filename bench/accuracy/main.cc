@@ -4,13 +4,12 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
-#include <stdexcept>
 
 #include "bench/accuracy/guard.h"
+#include "bench/accuracy/measure.h"
 #include "bench/accuracy/methods.h"
 #include "bench/accuracy/report.h"
 #include "datasets/atomic_file.h"
-#include "datasets/walk.h"
 
 namespace pomona {
 namespace {
@@ -23,59 +22,23 @@ struct Arguments {
   bool guards() const { return !accepted.empty(); }
 };
 
-/// What was measured, an entry per contender, and how many scenes or methods failed.
-struct Outcome {
+/// An entry per contender.
+std::vector<MethodFigures> measureAll(const std::vector<Contender>& contenders, const Arguments& arguments,
+                                      Failures& failures) {
   std::vector<MethodFigures> results;
-  int failures = 0;
-
-  void note(const std::string& what, const std::exception& error) {
-    std::fprintf(stderr, "pomona_accuracy: error: %s: %s\n", what.c_str(), error.what());
-    ++failures;
-  }
-};
-
-SceneFigures measure(Method& method, const MethodOptions& options, const Scene& scene,
-                     const std::string& name) {
-  const MethodResult result = method.run(scene.left, scene.right, options);
-  SceneFigures figures{name, figuresOf(result, scene.ground_truth), noFigures()};
-  if (!scene.nonoccluded.empty())
-    figures.nonoccluded = figuresOf(result, scene.ground_truth, scene.nonoccluded);
-  return figures;
-}
-
-Outcome measureAll(const std::vector<Contender>& contenders, const Arguments& arguments) {
-  Outcome outcome;
   std::vector<std::unique_ptr<Method>> methods;
   for (const Contender& contender : contenders) {
-    outcome.results.push_back({contender.name(), contender.kind, {}});
+    results.push_back({contender.name(), contender.kind, {}});
     methods.push_back(makeMethod(contender.method));
   }
-  for (const SceneFiles& files : findScenes({arguments.scenes})) {
-    Scene scene;
-    try {
-      scene = readScene(files);
-    } catch (const std::exception& error) {
-      outcome.note(files.name, error);
-      continue;
-    }
-    // The same range for everybody: what is compared is the matching, not the guessing.
-    const int num_disparities = disparitiesToReach(scene.ground_truth);
-    if (num_disparities == 0) continue;
-    std::fprintf(stderr, "%s\n", files.name.c_str());
-    for (std::size_t i = 0; i < contenders.size(); ++i) {
-      if (arguments.guards() && !isGuardedOn(contenders[i].method, files.name)) continue;
-      SceneFigures figures{files.name, noFigures(), noFigures()};
-      try {
-        figures = measure(*methods[i], contenders[i].options(num_disparities), scene, files.name);
-      } catch (const std::exception& error) {
-        outcome.note(files.name + ", " + contenders[i].name(), error);
-      }
-      outcome.results[i].scenes.push_back(figures);
-    }
-  }
-  if (outcome.results.front().scenes.empty())
-    throw std::runtime_error(arguments.scenes + ": no scene with known truth could be read");
-  return outcome;
+  forEachScene(arguments.scenes, failures,
+               [&](const std::string& name, const Scene& scene, int num_disparities) {
+                 for (std::size_t i = 0; i < contenders.size(); ++i)
+                   if (!arguments.guards() || isGuardedOn(contenders[i].method, name))
+                     results[i].scenes.push_back(
+                         measure(*methods[i], contenders[i], name, scene, num_disparities, failures));
+               });
+  return results;
 }
 
 /// `measured`, and the figures in `kept` of whatever was not measured, in the order of the tables.
@@ -108,16 +71,17 @@ int run(const Arguments& arguments) {
   const std::vector<Contender> compared =
       contenders(arguments.guards() && arguments.methods.empty() ? guardedMethods() : arguments.methods);
 
-  const Outcome outcome = measureAll(compared, arguments);
-  const std::vector<MethodFigures> reported = completed(outcome.results, kept);
+  Failures failures("pomona_accuracy");
+  const std::vector<MethodFigures> measured = measureAll(compared, arguments, failures);
+  const std::vector<MethodFigures> reported = completed(measured, kept);
   const std::string table = markdown(reported);
   std::cout << table;
   for (OutputFile& output : outputs) output.bytes = output.path == arguments.json ? json(reported) : table;
   writeFiles(outputs);
   std::vector<std::string> worse;
-  if (arguments.guards()) worse = accuracyFailures(compared, outcome.results, accepted);
+  if (arguments.guards()) worse = accuracyFailures(compared, measured, accepted);
   for (const std::string& failure : worse) std::cout << "FAILED: " << failure << "\n";
-  return worse.empty() && outcome.failures == 0 ? 0 : 1;
+  return worse.empty() && failures.count() == 0 ? 0 : 1;
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 #include "bench/accuracy/report.h"
 
 #include <cmath>
-#include <iomanip>
 #include <nlohmann/json.hpp>
 #include <opencv2/core/version.hpp>
 #include <sstream>
 #include <stdexcept>
 
+#include "bench/accuracy/table.h"
 #include "datasets/input_file.h"
 
 namespace pomona {
@@ -31,27 +31,6 @@ oracle's, percent); inlier-rms: root mean square of errors up to 1 px. Each scen
 
 using Json = nlohmann::ordered_json;
 using Columns = std::vector<Figure>;
-
-std::string number(double value, Figure figure) {
-  if (std::isnan(value)) return "-";
-  const bool fine = figure == kInlierBias || figure == kInlierRms;
-  std::ostringstream out;
-  out << std::fixed << std::setprecision(fine ? 3 : 2) << value;
-  return out.str();
-}
-
-void addRow(std::ostream& out, const std::vector<std::string>& cells) {
-  out << "|";
-  for (const std::string& cell : cells) out << " " << cell << " |";
-  out << "\n";
-}
-
-void addHeader(std::ostream& out, const std::vector<std::string>& cells) {
-  addRow(out, cells);
-  out << "|---|";
-  for (std::size_t i = 1; i < cells.size(); ++i) out << "--:|";
-  out << "\n";
-}
 
 // One row per method of the kind, the columns once over all pixels (A) and once over the non-occluded ones
 // (N).

@@ -1,0 +1,36 @@
+// Surfaces at the border of what both cameras see, and the holes beyond, which only the left one does.
+#pragma once
+
+#include <cstdint>
+
+#include "core/image.h"
+
+namespace pomona {
+
+/// A row's outermost source (see holes.h), if its match lies in the right view's outermost column. The holes
+/// beyond it are there because the view ends: nothing says that the surface ends there, too, and another one
+/// would have to begin in that very column by chance. So they are taken to continue it.
+class ViewBorder {
+ public:
+  struct Source {
+    int x;
+    float disparity;
+  };
+
+  /// Memory is kept from frame to frame.
+  void find(ImageView<const float> disparity, ImageView<const std::uint8_t> state, int threads);
+
+  /// The source that (x, y) lies beyond; null if there is none.
+  const Source* before(int y, int x) const {
+    const Ends& ends = ends_[static_cast<std::size_t>(y)];
+    return x < ends.left.x ? &ends.left : x > ends.right.x ? &ends.right : nullptr;
+  }
+
+ private:
+  struct Ends {
+    Source left, right;  // without one: before the first column, behind the last
+  };
+  Buffer<Ends> ends_;  // of each row
+};
+
+}  // namespace pomona
