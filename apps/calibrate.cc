@@ -4,17 +4,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
-#include <cstdarg>
-#include <cstdio>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "apps/muted_stream.h"
+#include "apps/print.h"
 #include "apps/progress.h"
 #include "apps/verbs.h"
 #include "datasets/atomic_file.h"
@@ -32,15 +29,6 @@ struct CalibrateArguments {
   std::string coverage;
   bool rational = false;
 };
-
-[[gnu::format(printf, 1, 2)]] void print(const char* format, ...) {
-  std::array<char, 512> line;
-  std::va_list values;
-  va_start(values, format);
-  std::vsnprintf(line.data(), line.size(), format, values);
-  va_end(values);
-  std::cout << line.data() << '\n';
-}
 
 BoardSize parseBoard(const CalibrateArguments& arguments) {
   BoardSize board;

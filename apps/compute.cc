@@ -3,10 +3,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <cstdarg>
 #include <cstdint>
-#include <cstdio>
-#include <iostream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -14,6 +11,7 @@
 #include <utility>
 
 #include "apps/compute_files.h"
+#include "apps/print.h"
 #include "apps/search_range.h"
 #include "apps/verbs.h"
 #include "pomona/engine.h"
@@ -34,15 +32,6 @@ struct ComputeArguments {
   std::string isa;
   bool timings = false;
 };
-
-[[gnu::format(printf, 1, 2)]] void print(const char* format, ...) {
-  std::array<char, 512> line;
-  std::va_list values;
-  va_start(values, format);
-  std::vsnprintf(line.data(), line.size(), format, values);
-  va_end(values);
-  std::cout << line.data() << '\n';
-}
 
 MemoryMode memoryMode(const std::string& name) {
   return name == "low" ? MemoryMode::kLow : name == "speed" ? MemoryMode::kSpeed : MemoryMode::kAutomatic;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "pomona/engine.h"
+#include "sgm/kernels.h"
 
 namespace pomona {
 namespace {
@@ -38,8 +39,7 @@ RegionFigures figuresOver(const cv::Mat& mask, const SceneFiles& files, const Sc
 }  // namespace
 
 int disparitiesToSearch(const SceneFiles& files, const Scene& scene) {
-  constexpr int kMostDisparities = 1024;
-  const int most = std::min(kMostDisparities, scene.left.cols);
+  const int most = std::min(kMaxDisparities, scene.left.cols);
   if (files.num_disparities > 0) return std::min(files.num_disparities, most);
   if (const int count = disparitiesToReach(scene.ground_truth); count > 0) return std::min(count, most);
   const int ndisp = scene.calibration ? scene.calibration->stereo.num_disparities : 0;

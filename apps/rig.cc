@@ -2,10 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -13,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/print.h"
 #include "apps/rig_options.h"
 #include "apps/verbs.h"
 
@@ -24,15 +22,6 @@ struct RigArguments {
   std::string output;
   std::string format = "pomona";
 };
-
-[[gnu::format(printf, 1, 2)]] void print(const char* format, ...) {
-  std::array<char, 512> line;
-  std::va_list values;
-  va_start(values, format);
-  std::vsnprintf(line.data(), line.size(), format, values);
-  va_end(values);
-  std::cout << line.data() << '\n';
-}
 
 void printCamera(const char* name, const CameraModel& c) {
   print("%s  f %.3f %.3f px  c %.3f %.3f px", name, c.fx_px, c.fy_px, c.cx_px, c.cy_px);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "pomona/engine.h"
+#include "sgm/kernels.h"
 
 namespace pomona {
 
@@ -26,8 +27,7 @@ SearchRange searchRange(const ComputePaths& paths, const ComputeInputs& inputs, 
     from_min.min_disparity = range.min;
     count = estimateNumDisparities(inputs.left, inputs.right, from_min, inputs.mask);
   }
-  constexpr int kMostDisparities = 1024;
-  const int most = std::min(kMostDisparities, width);
+  const int most = std::min(kMaxDisparities, width);
   if (count < 1 || count > most)
     throw std::invalid_argument(range.source + ": the range from --min-disparity " +
                                 std::to_string(range.min) + " to below " + std::to_string(range.min + count) +

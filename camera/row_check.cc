@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <opencv2/core.hpp>
 #include <utility>
 
 namespace pomona {
@@ -151,34 +152,25 @@ bool settle(Bytes left, Bytes right, int x, int y, Place& place) {
 }
 
 // Offset at (x, y) from the centre, in half widths and half heights: c[0] + c[1] x + c[2] y.
-using Plane = std::array<double, 3>;
+using Plane = cv::Vec3d;
 
 // The plane that fits most points: least squares, with weights that fade out for those far off, which are
 // mismatches.
 Plane fitPlane(const Match* matches, int count, int width, int height, double median_px) {
   Plane plane{median_px, 0, 0};
   for (const double scale_px : {4.0, 2.0, 1.0, 0.5, 0.5}) {
-    double a[3][4] = {};
+    // A little stiffness, so that points in one part of the image don't swing the rest.
+    cv::Matx33d a = cv::Matx33d::diag({0, 1, 1});
+    cv::Vec3d b(0, 0, 0);
     for (int i = 0; i < count; ++i) {
       const Match& m = matches[i];
-      const double row[3] = {1, 2.0 * m.left.x / width - 1, 2.0 * m.left.y / height - 1};
-      const double dy = m.right.y - m.left.y;
-      const double off = (dy - plane[0] - plane[1] * row[1] - plane[2] * row[2]) / scale_px;
+      const cv::Vec3d row(1, 2.0 * m.left.x / width - 1, 2.0 * m.left.y / height - 1);
+      const double dy = m.right.y - m.left.y, off = (dy - plane.dot(row)) / scale_px;
       const double weight = 1 / ((1 + off * off) * (1 + off * off));
-      for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 3; ++c) a[r][c] += weight * row[r] * row[c];
-        a[r][3] += weight * row[r] * dy;
-      }
+      a += weight * row * row.t();
+      b += weight * dy * row;
     }
-    // A little stiffness, so that points in one part of the image don't swing the rest.
-    a[1][1] += 1, a[2][2] += 1;
-    for (int pivot = 0; pivot < 3; ++pivot)  // Gauss and Jordan; the matrix is positive definite
-      for (int r = 0; r < 3; ++r) {
-        if (r == pivot) continue;
-        const double factor = a[r][pivot] / a[pivot][pivot];
-        for (int c = pivot; c < 4; ++c) a[r][c] -= factor * a[pivot][c];
-      }
-    plane = {a[0][3] / a[0][0], a[1][3] / a[1][1], a[2][3] / a[2][2]};
+    plane = a.solve(b, cv::DECOMP_CHOLESKY);
   }
   return plane;
 }

@@ -48,21 +48,21 @@ constexpr std::int64_t kBrightShare = 1000;  // one value of so many may exceed 
 /// By how many bits 16-bit values must shift for 8-bit stages: 10- and 12-bit cameras leave the top ones
 /// empty, and a few hot pixels or highlights must not cost the rest their contrast.
 int eightBitShift(std::initializer_list<ImageView<const std::uint16_t>> views) {
-  for (int shift = 8; shift > 0; --shift) {
-    const std::uint16_t too_large = static_cast<std::uint16_t>(1 << (7 + shift));
-    std::int64_t brighter = 0, total = 0;
-    for (const ImageView<const std::uint16_t>& view : views) {
-      total += std::int64_t{view.width} * view.height;
-      for (int y = 0; y < view.height; ++y) {
+  std::int64_t total = 0, too_large[9] = {};  // by shift: values for which one less would not do
+  for (const ImageView<const std::uint16_t>& view : views) {
+    total += std::int64_t{view.width} * view.height;
+    for (int y = 0; y < view.height; ++y)
+      for (int shift = 1; shift <= 8; ++shift) {
         const std::uint16_t* row = view.row(y);
+        const int limit = 1 << (7 + shift);
         int in_row = 0;
-        for (int x = 0; x < view.width; ++x) in_row += row[x] >= too_large;
-        brighter += in_row;
+        for (int x = 0; x < view.width; ++x) in_row += row[x] >= limit;
+        too_large[shift] += in_row;
       }
-    }
-    if (brighter * kBrightShare > total) return shift;
   }
-  return 0;
+  int shift = 8;
+  while (shift > 0 && too_large[shift] * kBrightShare <= total) --shift;
+  return shift;
 }
 
 /// Values beyond 8 bits saturate.

@@ -42,6 +42,7 @@ struct Aggregator::Pass {
   MemoryMode memory;
 
   bool wide() const { return options.p2 > 63; }  // 16-bit partial sums
+  bool keepsSums() const { return memory == MemoryMode::kSpeed; }
   int height() const { return cost.height(); }
   std::size_t sumRowBytes() const {
     return static_cast<std::size_t>(cost.width()) * cost.range().lanes() * (wide() ? 2 : 1);
@@ -65,10 +66,10 @@ struct Aggregator::Pass {
   }
 };
 
-std::size_t Aggregator::sumBytes(int width, int height, const DisparityRange& range,
-                                 const AggregationOptions& options) {
-  return static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * range.lanes() *
-         (options.p2 > 63 ? 2 : 1);
+MemoryMode Aggregator::chooseMemory(MemoryMode memory, double sum_bytes) {
+  constexpr double kMostSumBytes = 256 << 20;
+  if (memory != MemoryMode::kAutomatic) return memory;
+  return sum_bytes > kMostSumBytes ? MemoryMode::kLow : MemoryMode::kSpeed;
 }
 
 void Aggregator::restart(const Pass& pass, Paths& paths) {
@@ -112,7 +113,7 @@ AggregateRow Aggregator::prepareRow(const Pass& pass, Paths& paths, int y, int f
 void Aggregator::firstPass(const Pass& pass, int which) {
   Sweep& s = sweep_[which];
   restart(pass, s.paths);
-  const bool keeps_sums = pass.memory == MemoryMode::kSpeed;
+  const bool keeps_sums = pass.keepsSums();
   const int rows = pass.rowsOf(which), block = pass.blockRows();
   const std::size_t costs = 3 * pass.pathBytes(), minima = pass.minimaCount();
   if (!keeps_sums) {
@@ -220,12 +221,14 @@ void Aggregator::prepareTables(const Pass& pass) {
 
 void Aggregator::run(const MatchingCostRows& cost, const ColorSteps& steps, const AggregationOptions& options,
                      MemoryMode memory, const SgmKernels& kernels, WinnerSink sink, int threads) {
-  const Pass pass{cost, steps, options, kernels, memory};
+  Pass pass{cost, steps, options, kernels, memory};
+  const std::size_t sum_bytes = pass.sumRowBytes() * static_cast<std::size_t>(pass.height());
+  pass.memory = chooseMemory(memory, static_cast<double>(sum_bytes));
   prepareTables(pass);
-  if (memory == MemoryMode::kSpeed) sums_.resize(pass.sumRowBytes() * cost.height());
+  if (pass.keepsSums()) sums_.resize(sum_bytes);
   parallelFor(threads, 2, [&](int which) { firstPass(pass, which); });
   parallelFor(threads, 2, [&](int which) {
-    memory == MemoryMode::kSpeed ? lastPass(pass, which, sink) : lastPassInBlocks(pass, which, sink);
+    pass.keepsSums() ? lastPass(pass, which, sink) : lastPassInBlocks(pass, which, sink);
   });
 }
 

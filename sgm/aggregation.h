@@ -26,13 +26,12 @@ using WinnerSink = FunctionRef<void(int y, const WinnerRow& winners)>;
 /// that follow it, keeping their sums, and completes those. One pass more, the same sums.
 class Aggregator {
  public:
-  /// `steps`: of the left image, the source of P2 adaptation. `memory` must not be kAutomatic.
+  /// `steps`: of the left image, the source of P2 adaptation.
   void run(const MatchingCostRows& cost, const ColorSteps& steps, const AggregationOptions& options,
            MemoryMode memory, const SgmKernels& kernels, WinnerSink sink, int threads);
 
-  /// Bytes of the sums that kSpeed keeps.
-  static std::size_t sumBytes(int width, int height, const DisparityRange& range,
-                              const AggregationOptions& options);
+  /// What kAutomatic stands for if kSpeed kept so many bytes of sums; other modes stay as they are.
+  static MemoryMode chooseMemory(MemoryMode memory, double sum_bytes);
 
  private:
   /// What the paths of a sweep carry from row to row.

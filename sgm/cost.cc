@@ -134,9 +134,11 @@ void MatchingCostRows::prepareSupport(const ColorSteps& steps, int color_step, i
   });
 }
 
-void MatchingCostRows::preparePrior(ImageView<const float> map, int weight, int reach_px, int threads) {
-  has_prior_ = true;
+void MatchingCostRows::makeRamps(int weight, int reach_px) {
   const int lanes = range_.lanes(), n = range_.vectors;
+  const std::array<int, 5> wanted = {range_.disparities, n, lanes, weight, reach_px};
+  if (ramps_of_ == wanted) return;  // as in the frame before
+  ramps_of_ = wanted;
   ramps_.resize(static_cast<std::size_t>(kPriorSteps) * range_.disparities * lanes);
   for (int to = 0; to < kPriorSteps * range_.disparities; ++to)
     for (int d = 0; d < lanes; ++d) {
@@ -147,6 +149,11 @@ void MatchingCostRows::preparePrior(ImageView<const float> map, int weight, int 
       ramps_[static_cast<std::size_t>(to) * lanes + d % n * range_.vector_bytes + d / n] =
           static_cast<std::uint8_t>(static_cast<float>(weight) * capped + 0.5f);
     }
+}
+
+void MatchingCostRows::preparePrior(ImageView<const float> map, int weight, int reach_px, int threads) {
+  has_prior_ = true;
+  makeRamps(weight, reach_px);
   prior_.resize(width_, height_);
   parallelStrips(threads, height_, 16, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)

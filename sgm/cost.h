@@ -1,6 +1,7 @@
 // Matching cost of a rectified pair, produced row by row: the cost volume is never stored.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -60,6 +61,7 @@ class MatchingCostRows {
                const DisparityRange& range, const SgmKernels& kernels);
   void stripe(std::span<const ImageView<const std::uint8_t>> right, int threads);
   void stripeRow(const std::uint8_t* right, int y, int plane);
+  void makeRamps(int weight, int reach_px);
   void row(int y, std::uint8_t* cost) const;
 
   Kind kind_ = Kind::kCensus;
@@ -76,6 +78,7 @@ class MatchingCostRows {
   bool has_prior_ = false;
   Image<std::uint16_t> prior_;  // see PriorRow
   Buffer<std::uint8_t> ramps_;
+  std::array<int, 5> ramps_of_{};  // what they were made for: disparities, vectors, lanes, weight, reach
 };
 
 /// Walks the cost rows for one sweep; keeps what neighbouring rows share.

@@ -8,9 +8,6 @@
 namespace pomona {
 namespace {
 
-/// The sums kept at most for the sake of speed.
-constexpr std::size_t kMostSumBytes = std::size_t{256} << 20;
-
 void finishRow(const WinnerRow& w, int y, const MatchOptions& o, const SgmKernels& kernels, MatchMaps& out) {
   const int width = out.disparity.width();
   const auto refine = kernels.refine[static_cast<int>(o.winner.subpixel)];
@@ -57,7 +54,6 @@ void SgmMatcher::findWinners(const MatchInput& pair, const MatchOptions& options
                              std::span<const std::uint8_t> table, const SgmKernels& kernels, WinnerSink sink,
                              int threads) {
   const MatchingCost kind = options.cost.cost;
-  const int width = pair.left.width, height = pair.left.height;
   const DisparityRange range = makeRange(options.min_disparity, options.disparities, kernels);
 
   const auto left = extract(pair.left, pair.left16, kind, left_, kernels, threads);
@@ -74,13 +70,7 @@ void SgmMatcher::findWinners(const MatchInput& pair, const MatchOptions& options
   cost_.prepareSupport(steps_, options.cost.support_color_step, threads);
   if (!pair.prior.empty())
     cost_.preparePrior(pair.prior, options.prior_weight, options.prior_reach_px, threads);
-
-  MemoryMode memory = options.memory;
-  if (memory == MemoryMode::kAutomatic)
-    memory = Aggregator::sumBytes(width, height, range, options.aggregation) > kMostSumBytes
-                 ? MemoryMode::kLow
-                 : MemoryMode::kSpeed;
-  aggregator_.run(cost_, steps_, options.aggregation, memory, kernels, sink, threads);
+  aggregator_.run(cost_, steps_, options.aggregation, options.memory, kernels, sink, threads);
 }
 
 void SgmMatcher::match(const MatchInput& pair, const MatchOptions& options,

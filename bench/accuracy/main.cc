@@ -58,12 +58,7 @@ std::vector<MethodFigures> completed(const std::vector<MethodFigures>& measured,
 }
 
 int run(const Arguments& arguments) {
-  std::vector<OutputFile> outputs;
-  for (const std::string& path : {arguments.markdown, arguments.json}) {
-    if (path.empty()) continue;
-    checkOutputPath(path);
-    outputs.push_back({path, ""});
-  }
+  std::vector<OutputFile> outputs = plannedOutputs({arguments.markdown, arguments.json});
   const std::vector<MethodFigures> kept =
       arguments.kept.empty() ? std::vector<MethodFigures>() : readFigures(arguments.kept);
   const std::vector<MethodFigures> accepted =

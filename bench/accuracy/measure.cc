@@ -31,6 +31,16 @@ void forEachScene(const std::string& folder, Failures& failures, const SceneVisi
   if (!any) throw std::runtime_error(folder + ": no scene with known truth could be read");
 }
 
+std::vector<OutputFile> plannedOutputs(std::initializer_list<std::string> paths) {
+  std::vector<OutputFile> outputs;
+  for (const std::string& path : paths) {
+    if (path.empty()) continue;
+    checkOutputPath(path);
+    outputs.push_back({path, ""});
+  }
+  return outputs;
+}
+
 SceneFigures sceneFigures(const std::string& name, const Scene& scene, const MethodResult& result) {
   SceneFigures figures{name, figuresOf(result, scene.ground_truth), noFigures()};
   if (!scene.nonoccluded.empty())

@@ -3,9 +3,12 @@
 
 #include <exception>
 #include <functional>
+#include <initializer_list>
 #include <string>
+#include <vector>
 
 #include "bench/accuracy/figures.h"
+#include "datasets/atomic_file.h"
 #include "datasets/scene.h"
 
 namespace pomona {
@@ -30,6 +33,9 @@ using SceneVisitor = std::function<void(const std::string& name, const Scene& sc
 /// Hands over the scenes with known truth below `folder`, one after the other, and names them on stderr.
 /// Throws std::runtime_error if there is none that can be read.
 void forEachScene(const std::string& folder, Failures& failures, const SceneVisitor& visit);
+
+/// The files of these paths that are not empty: checked before hours of matching, not after.
+std::vector<OutputFile> plannedOutputs(std::initializer_list<std::string> paths);
 
 SceneFigures sceneFigures(const std::string& name, const Scene& scene, const MethodResult& result);
 

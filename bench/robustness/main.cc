@@ -47,12 +47,7 @@ std::vector<ChangedFigures> measureAll(const std::string& folder, Failures& fail
 }
 
 int run(const Arguments& arguments) {
-  std::vector<OutputFile> outputs;
-  for (const std::string& path : {arguments.markdown, arguments.json}) {
-    if (path.empty()) continue;
-    checkOutputPath(path);
-    outputs.push_back({path, ""});
-  }
+  std::vector<OutputFile> outputs = plannedOutputs({arguments.markdown, arguments.json});
   Failures failures("pomona_robustness");
   const std::vector<ChangedFigures> results = measureAll(arguments.scenes, failures);
   const std::string tables = robustnessMarkdown(results);
