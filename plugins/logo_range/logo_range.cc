@@ -1,0 +1,192 @@
+#include "plugins/logo_range/logo_range.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "plugins/common/feature_pairs.h"
+#include "plugins/common/stopwatch.h"
+#include "plugins/common/triangulation.h"
+#include "plugins/logo_range/disparity_plane.h"
+
+namespace pomona {
+namespace {
+
+constexpr float kFeatureSigma_px = 0.5f;  // of a disparity between two features
+constexpr int kLeastPoints = 3;
+
+// Disparities that can be: of the calibration where it says so, else up to a third of the width.
+double largestDisparity(const StereoCalibration& rig, const cv::Mat& view) {
+  return rig.num_disparities > 0 ? rig.num_disparities : view.cols / 3.0;
+}
+
+cv::Mat searchMask(const cv::Mat& view, const cv::Mat& mask, bool upper_half) {
+  if (!upper_half) return mask;
+  cv::Mat upper = cv::Mat::zeros(view.size(), CV_8U);
+  upper.rowRange(0, (view.rows + 1) / 2).setTo(255);
+  if (!mask.empty()) upper.setTo(0, mask == 0);
+  return upper;
+}
+
+class SignRanger {
+ public:
+  SignRanger(const RectifiedPair& pair, const StereoCalibration& rig, const cv::Mat& mask,
+             const ObjectDatabase& database, const LogoRangeOptions& options)
+      : left_(grayOf(pair.left)),
+        right_(grayOf(pair.right)),
+        rig_(rig),
+        database_(database),
+        options_(options),
+        finder_(database.kind, options.sensitivity) {
+    Stopwatch watch;
+    features_ = finder_.find(left_, searchMask(left_, mask, options.upper_half));
+    result_.figures.push_back({"features left", double(features_.count()), ""});
+    result_.figures.push_back({"features", watch.lapMs(), "ms"});
+    matches_ = ObjectMatcher(database).match(features_.descriptors);
+    result_.figures.push_back({"matching", watch.lapMs(), "ms"});
+  }
+
+  SparseResult run() {
+    Stopwatch watch;
+    for (int i = 0; i < static_cast<int>(database_.objects.size()); ++i) rangeObject(i);
+    result_.figures.push_back({"features right", double(right_count_), ""});
+    result_.figures.push_back({"ranging", watch.lapMs(), "ms"});
+    return std::move(result_);
+  }
+
+ private:
+  void rangeObject(int number) {
+    const KnownObject& known = database_.objects[number];
+    SparseObject object;
+    object.label = known.label;
+    const ObjectPlace place = locateObject(known, number, features_.keypoints, matches_, options_.locate);
+    object.why_not = place.why_not;
+    if (place.found()) {
+      object.outline_px = place.outline_px;
+      object.box_px = cv::boundingRect(place.outline_px);
+      const std::vector<SparsePoint> points = pointsOn(number, place);
+      result_.points.insert(result_.points.end(), points.begin(), points.end());
+      if (options_.ranging == SignRanging::kFeatureMean)
+        rangeByMean(points, object);
+      else
+        rangeByPlane(points, mapped(place.image_from_picture, middleOf(known)), object);
+    }
+    result_.objects.push_back(std::move(object));
+  }
+
+  static cv::Point2d middleOf(const KnownObject& known) {
+    return {(known.size_px.width - 1) / 2.0, (known.size_px.height - 1) / 2.0};
+  }
+
+  // Features of the left view on the sign: as published those that were recognised; else all inside the
+  // outline.
+  Features featuresOn(const ObjectPlace& place) const {
+    Features on;
+    const auto add = [&](int i) {
+      on.keypoints.push_back(features_.keypoints[i]);
+      on.descriptors.push_back(features_.descriptors.row(i));
+    };
+    if (options_.ranging == SignRanging::kFeatureMean) {
+      for (const ObjectMatch& match : place.agreeing) add(match.query);
+    } else {
+      for (int i = 0; i < features_.count(); ++i)
+        if (cv::pointPolygonTest(place.outline_px, features_.keypoints[i].pt, false) >= 0) add(i);
+    }
+    return on;
+  }
+
+  // Their partners in the right view, which is searched only where the outline allows them to be.
+  std::vector<SparsePoint> pointsOn(int number, const ObjectPlace& place) {
+    PairingOptions pairing;
+    pairing.max_row_offset_px = options_.max_row_offset_px;
+    pairing.ratio = options_.pair_ratio;
+    pairing.min_disparity_px = -rig_.doffs_px;
+    pairing.max_disparity_px = largestDisparity(rig_, left_);
+    const Features on = featuresOn(place), right = finder_.find(right_, rightMask(place.outline_px, pairing));
+    right_count_ += right.count();
+    std::vector<SparsePoint> points;
+    for (const cv::DMatch& pair : pairFeatures(on, right, pairing)) {
+      const SparsePoint point = triangulate(rig_, on.keypoints[pair.queryIdx].pt,
+                                            right.keypoints[pair.trainIdx].pt, kFeatureSigma_px, number);
+      if (std::isfinite(point.point_m.z)) points.push_back(point);
+    }
+    return points;
+  }
+
+  cv::Mat rightMask(const std::vector<cv::Point2f>& outline, const PairingOptions& pairing) const {
+    const cv::Rect box = cv::boundingRect(outline);
+    const int reach = cvCeil(pairing.max_row_offset_px);
+    const int x0 = cvFloor(box.x - pairing.max_disparity_px),
+              x1 = cvCeil(box.br().x - pairing.min_disparity_px);
+    const cv::Rect allowed(x0, box.y - reach, x1 - x0, box.height + 2 * reach);
+    cv::Mat mask = cv::Mat::zeros(right_.size(), CV_8U);
+    mask(allowed & cv::Rect(0, 0, right_.cols, right_.rows)).setTo(255);
+    return mask;
+  }
+
+  static void rangeByMean(const std::vector<SparsePoint>& points, SparseObject& object) {
+    if (static_cast<int>(points.size()) < kLeastPoints) return fail(points.size(), object);
+    double sum = 0, squares = 0;
+    for (const SparsePoint& point : points) sum += point.point_m.z;
+    const double mean = sum / double(points.size());
+    for (const SparsePoint& point : points) squares += (point.point_m.z - mean) * (point.point_m.z - mean);
+    const double deviation = std::sqrt(squares / double(points.size()));
+    cv::Point3d middle;
+    int kept = 0;
+    for (const SparsePoint& point : points) {
+      if (std::abs(point.point_m.z - mean) > deviation) continue;
+      middle += cv::Point3d(point.point_m);
+      ++kept;
+    }
+    if (kept == 0) return fail(0, object);
+    setPoint(middle * (1.0 / kept), deviation / std::sqrt(double(kept)), kept, object);
+  }
+
+  void rangeByPlane(const std::vector<SparsePoint>& points, const cv::Point2d& middle, SparseObject& object) {
+    constexpr double kTolerance_px = 1;
+    std::vector<PlaceDisparity> disparities;
+    for (const SparsePoint& point : points) disparities.push_back({point.left_px, point.disparity_px});
+    std::optional<DisparityPlane> plane = fitDisparityPlane(disparities, middle, kTolerance_px, kLeastPoints);
+    if (!plane) return fail(points.size(), object);
+    // Where the views can't be aligned, as on a glossy sign, the features' own plane it is.
+    if (const auto aligned = alignDisparityPlane(left_, right_, object.outline_px, *plane)) plane = aligned;
+    const cv::Point2f at = middle;
+    const SparsePoint point = triangulate(rig_, at, at - cv::Point2f(float(plane->disparity_px), 0),
+                                          static_cast<float>(plane->sigma_px));
+    if (!std::isfinite(point.point_m.z)) return fail(0, object);
+    setPoint(point.point_m, point.sigma_z_m, static_cast<int>(points.size()), object);
+  }
+
+  static void fail(std::size_t points, SparseObject& object) {
+    object.why_not = "seen, but only " + std::to_string(points) + " of at least " +
+                     std::to_string(kLeastPoints) + " features could be ranged";
+  }
+
+  // `sigma_m` is that of Z; along the line of sight it is longer as the distance is.
+  static void setPoint(const cv::Point3d& point_m, double sigma_m, int support, SparseObject& object) {
+    object.point_m = point_m;
+    object.distance_m = distanceOf(point_m);
+    object.sigma_m = sigma_m * object.distance_m / point_m.z;
+    object.bearing_deg = bearingOf(point_m);
+    object.support = support;
+  }
+
+  const cv::Mat left_, right_;
+  const StereoCalibration& rig_;
+  const ObjectDatabase& database_;
+  const LogoRangeOptions& options_;
+  FeatureFinder finder_;
+  Features features_;
+  std::vector<ObjectMatch> matches_;
+  int right_count_ = 0;
+  SparseResult result_;
+};
+
+}  // namespace
+
+SparseResult rangeSigns(const RectifiedPair& pair, const StereoCalibration& rig, const cv::Mat& mask,
+                        const ObjectDatabase& database, const LogoRangeOptions& options) {
+  return SignRanger(pair, rig, mask, database, options).run();
+}
+
+}  // namespace pomona
