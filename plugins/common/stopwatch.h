@@ -1,4 +1,4 @@
-// Wall-clock time of the steps of a run, for SparseResult::figures.
+// Wall-clock times for a result's figures.
 #pragma once
 
 #include <chrono>
@@ -7,16 +7,16 @@ namespace pomona {
 
 class Stopwatch {
  public:
-  /// Milliseconds since the last call, or since it was made.
+  /// Milliseconds since the last lap, or since it was made.
   double lapMs() {
     const auto now = std::chrono::steady_clock::now();
-    const std::chrono::duration<double, std::milli> lap = now - start_;
-    start_ = now;
-    return lap.count();
+    const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
+    last_ = now;
+    return ms;
   }
 
  private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace pomona

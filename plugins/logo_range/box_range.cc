@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plugins/common/stopwatch.h"
 #include "plugins/common/triangulation.h"
 #include "pomona/measure.h"
 
@@ -55,13 +54,13 @@ void rangeByCenters(const Detection& left, const std::vector<Detection>& right, 
   setPoint(point.point_m, point.sigma_z_m * distance_m / point.point_m.z, 1, object);
 }
 
-void rangeByMap(const Detection& left, const StereoCalibration& rig, const PluginInputs& inputs,
+void rangeByMap(const Detection& left, const StereoCalibration& rig, const StereoResult& dense,
                 SparseObject& object) {
   MeasureOptions options;
   options.shape = ObjectShape::kSurface;
   const cv::Rect box(cvRound(left.box_px.x), cvRound(left.box_px.y), std::max(1, cvRound(left.box_px.width)),
                      std::max(1, cvRound(left.box_px.height)));
-  const ObjectMeasurement measured = measureObject(inputs.dense(), rig, box, options);
+  const ObjectMeasurement measured = measureObject(dense, rig, box, options);
   if (!measured.ok()) {
     object.why_not = explain(measured.failure);
     return;
@@ -71,29 +70,20 @@ void rangeByMap(const Detection& left, const StereoCalibration& rig, const Plugi
 
 }  // namespace
 
-SparseResult rangeBoxes(const RectifiedPair& pair, const StereoCalibration& rig, const PluginInputs& inputs,
-                        Detector& detector, BoxRanging ranging) {
+SparseResult rangeBoxes(const Boxes& boxes, const StereoCalibration& rig, BoxRanging ranging,
+                        const std::function<const StereoResult&()>& dense,
+                        const std::function<std::string(int)>& label_of) {
   SparseResult result;
-  Stopwatch watch;
-  const std::vector<Detection> left = detector.detect(pair.left);
-  const std::vector<Detection> right =
-      ranging == BoxRanging::kCenters ? detector.detect(pair.right) : std::vector<Detection>();
-  result.figures.push_back({"boxes left", double(left.size()), ""});
-  if (ranging == BoxRanging::kCenters) result.figures.push_back({"boxes right", double(right.size()), ""});
-  result.figures.push_back({"detection", watch.lapMs(), "ms"});
-  for (const Detection& detection : left) {
-    const cv::Point2f center = centerOf(detection.box_px);
-    if (!inputs.mask.empty() && !inputs.mask.at<std::uint8_t>(cv::Point(center))) continue;
+  for (const Detection& detection : boxes.left) {
     SparseObject object;
-    object.label = detector.labelOf(detection.kind);
+    object.label = label_of(detection.kind);
     object.box_px = detection.box_px;
     if (ranging == BoxRanging::kCenters)
-      rangeByCenters(detection, right, rig, result, object);
+      rangeByCenters(detection, boxes.right, rig, result, object);
     else
-      rangeByMap(detection, rig, inputs, object);
+      rangeByMap(detection, rig, dense(), object);
     result.objects.push_back(std::move(object));
   }
-  result.figures.push_back({"ranging", watch.lapMs(), "ms"});
   return result;
 }
 

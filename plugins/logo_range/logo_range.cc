@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "plugins/common/feature_pairs.h"
+#include "plugins/common/matching.h"
 #include "plugins/common/stopwatch.h"
 #include "plugins/common/triangulation.h"
 #include "plugins/logo_range/disparity_plane.h"
@@ -97,27 +97,27 @@ class SignRanger {
 
   // Their partners in the right view, which is searched only where the outline allows them to be.
   std::vector<SparsePoint> pointsOn(int number, const ObjectPlace& place) {
-    PairingOptions pairing;
-    pairing.max_row_offset_px = options_.max_row_offset_px;
-    pairing.ratio = options_.pair_ratio;
-    pairing.min_disparity_px = -rig_.doffs_px;
-    pairing.max_disparity_px = largestDisparity(rig_, left_);
-    const Features on = featuresOn(place), right = finder_.find(right_, rightMask(place.outline_px, pairing));
+    const RowBand band{static_cast<float>(options_.max_row_offset_px), static_cast<float>(-rig_.doffs_px),
+                       static_cast<float>(largestDisparity(rig_, left_))};
+    const Features on = featuresOn(place), right = finder_.find(right_, rightMask(place.outline_px, band));
     right_count_ += right.count();
+    MatchOptions matching;
+    matching.ratio = static_cast<float>(options_.pair_ratio);
     std::vector<SparsePoint> points;
-    for (const cv::DMatch& pair : pairFeatures(on, right, pairing)) {
-      const SparsePoint point = triangulate(rig_, on.keypoints[pair.queryIdx].pt,
-                                            right.keypoints[pair.trainIdx].pt, kFeatureSigma_px, number);
+    for (const KeypointMatch& match :
+         matchKeypoints(on.descriptors, right.descriptors, matching, band, on.keypoints, right.keypoints)) {
+      const SparsePoint point = triangulate(rig_, on.keypoints[match.left].pt,
+                                            right.keypoints[match.right].pt, kFeatureSigma_px, number);
       if (std::isfinite(point.point_m.z)) points.push_back(point);
     }
     return points;
   }
 
-  cv::Mat rightMask(const std::vector<cv::Point2f>& outline, const PairingOptions& pairing) const {
+  cv::Mat rightMask(const std::vector<cv::Point2f>& outline, const RowBand& band) const {
     const cv::Rect box = cv::boundingRect(outline);
-    const int reach = cvCeil(pairing.max_row_offset_px);
-    const int x0 = cvFloor(box.x - pairing.max_disparity_px),
-              x1 = cvCeil(box.br().x - pairing.min_disparity_px);
+    const int reach = cvCeil(band.max_row_offset_px);
+    const int x0 = cvFloor(static_cast<float>(box.x) - band.max_disparity_px);
+    const int x1 = cvCeil(static_cast<float>(box.br().x) - band.min_disparity_px);
     const cv::Rect allowed(x0, box.y - reach, x1 - x0, box.height + 2 * reach);
     cv::Mat mask = cv::Mat::zeros(right_.size(), CV_8U);
     mask(allowed & cv::Rect(0, 0, right_.cols, right_.rows)).setTo(255);

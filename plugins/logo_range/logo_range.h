@@ -20,7 +20,7 @@ struct LogoRangeOptions {
   double sensitivity = 2;   ///< of the features in the views, see FeatureFinder
   bool upper_half = false;  ///< look for signs in the upper half of the left view only
   LocateOptions locate;
-  double pair_ratio = 0.8;  ///< see PairingOptions
+  double pair_ratio = 0.85;  ///< see MatchOptions
   double max_row_offset_px = 2;
   SignRanging ranging = SignRanging::kAlignedPlane;
 };

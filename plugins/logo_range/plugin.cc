@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "plugins/common/known_objects.h"
+#include "plugins/common/stopwatch.h"
 #include "plugins/logo_range/box_range.h"
 #include "plugins/logo_range/logo_range.h"
 
@@ -85,8 +86,23 @@ class LogoRange final : public SparseStereoPlugin {
     options.min_confidence = settings.real("min_confidence");
     options.max_overlap = settings.real("max_overlap");
     Detector detector(options);
-    return rangeBoxes(pair, rig, inputs, detector,
-                      settings.text("box_ranging") == "centers" ? BoxRanging::kCenters : BoxRanging::kDense);
+    const bool by_centers = settings.text("box_ranging") == "centers";
+    Stopwatch watch;
+    Boxes boxes{detector.detect(pair.left), {}};
+    if (by_centers) boxes.right = detector.detect(pair.right);
+    if (!inputs.mask.empty())
+      std::erase_if(boxes.left, [&](const Detection& seen) {
+        const cv::Rect2f& box = seen.box_px;
+        return !inputs.mask.at<std::uint8_t>(int(box.y + box.height / 2), int(box.x + box.width / 2));
+      });
+    const double detection_ms = watch.lapMs();
+    SparseResult result = rangeBoxes(boxes, rig, by_centers ? BoxRanging::kCenters : BoxRanging::kDense,
+                                     inputs.dense, [&](int kind) { return detector.labelOf(kind); });
+    result.figures = {{"boxes left", double(boxes.left.size()), ""},
+                      {"boxes right", double(boxes.right.size()), ""},
+                      {"detection", detection_ms, "ms"},
+                      {"ranging", watch.lapMs(), "ms"}};
+    return result;
   }
 
   KnownObjects signs_;
