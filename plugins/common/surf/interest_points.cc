@@ -11,10 +11,8 @@
 namespace pomona {
 namespace {
 
-constexpr int kStripRows = 64;  // rows of samples per task; two more are computed twice
-// Of a step. Half of one by the argument in the header; a little more, so that the rounding of a maximum
-// right between two samples does not lose it.
-constexpr double kFurthest = 0.55;
+constexpr int kStripRows = 64;   // rows of samples per task; two more are computed twice
+constexpr double kFurthest = 1;  // of a step
 
 /// Determinants of one octave around one sample: `at[layer][row][k]`.
 struct Neighbourhood {
