@@ -10,7 +10,7 @@ struct SurfOptions {
   /// filters divided by their whole area (the paper's normalisation): 30 keeps what stands out, 5 nearly
   /// everything above the noise of a camera. OpenCV's own SURF divides each lobe by the area of that lobe
   /// alone, so that its figures are (81 / 15)^2 = 29 times as large.
-  float hessian_threshold = 10;
+  float hessian_threshold = 30;
   /// 1 to 5. Each doubles the scales that are found and the step at which they are sampled, which is 1 px in
   /// the first.
   int octaves = 4;
