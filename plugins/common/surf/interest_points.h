@@ -17,9 +17,9 @@ struct InterestPoint {
 };
 
 /// Maxima among their 26 neighbours, moved to the top of the quadratic through these (section 3.3 of the
-/// paper); dropped where that lies a step or more away, as the quadratic then says nothing. (To drop at half
-/// a step costs a fortieth of the points that other views show, too.) In order of octave, row, layer and
-/// column, whatever the number of threads.
+/// paper); dropped where that lies further than a step away, as the quadratic then says nothing. (To drop
+/// beyond half a step costs one in thirty of the points that other views show, too.) In order of octave, row,
+/// layer and column, whatever the number of threads.
 std::vector<InterestPoint> findInterestPoints(const IntegralImage& image, const SurfOptions& options);
 
 }  // namespace pomona
