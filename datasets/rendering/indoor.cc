@@ -51,8 +51,8 @@ class IndoorBuilder {
     add(Shape::kPlane, {0, 0, wall_m}, {1, 0, 0}, {0, 1, 0}, paint({150, 156, 160}, options_.contrast, 0.2));
     for (const double side : {-0.5, 0.45}) {
       const double size_m = between(0.25, 0.4);
-      add(Shape::kParallelogram, {side * halfViewM(wall_m), -between(0.5, 0.8), wall_m - 0.02}, {size_m, 0, 0},
-          {0, 0.7 * size_m, 0}, paint({120, 125, 130}, 3 * options_.contrast, 0.1));
+      add(Shape::kParallelogram, {side * halfViewM(wall_m), -between(0.5, 0.8), wall_m - 0.02},
+          {size_m, 0, 0}, {0, 0.7 * size_m, 0}, paint({120, 125, 130}, 3 * options_.contrast, 0.1));
     }
   }
 

@@ -31,9 +31,9 @@ struct Indoor {
   std::vector<Obstacle> obstacles;
 };
 
-/// Boxes side by side on a floor before a wall with two pictures. `cameras`: an empty scene (sceneFor()). Sets
-/// num_disparities to what the scene needs. Throws std::invalid_argument naming the option for values that
-/// are not allowed.
+/// Boxes side by side on a floor before a wall with two pictures. `cameras`: an empty scene (sceneFor()).
+/// Sets num_disparities to what the scene needs. Throws std::invalid_argument naming the option for values
+/// that are not allowed.
 Indoor indoor(const SceneDescription& cameras, const IndoorOptions& options = {});
 
 }  // namespace pomona

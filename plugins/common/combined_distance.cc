@@ -55,15 +55,15 @@ struct Functions {
   TwoNearest (*two_nearest)(const std::uint8_t*, const std::uint8_t*, std::size_t, int, int);
 };
 
-#define POMONA_DISTANCE_FUNCTIONS(name, attribute)                                                       \
-  attribute int distanceBelow_##name(const std::uint8_t* a, const std::uint8_t* b, int n, int bound) {   \
-    return n == kSiftLength ? distanceBelow(a, b, kSiftLength, bound) : distanceBelow(a, b, n, bound);   \
-  }                                                                                                      \
-  attribute TwoNearest twoNearest_##name(const std::uint8_t* query, const std::uint8_t* others,          \
-                                         std::size_t step, int count, int n) {                           \
-    return n == kSiftLength ? twoNearest(query, others, step, count, kSiftLength)                        \
-                            : twoNearest(query, others, step, count, n);                                 \
-  }                                                                                                      \
+#define POMONA_DISTANCE_FUNCTIONS(name, attribute)                                                     \
+  attribute int distanceBelow_##name(const std::uint8_t* a, const std::uint8_t* b, int n, int bound) { \
+    return n == kSiftLength ? distanceBelow(a, b, kSiftLength, bound) : distanceBelow(a, b, n, bound); \
+  }                                                                                                    \
+  attribute TwoNearest twoNearest_##name(const std::uint8_t* query, const std::uint8_t* others,        \
+                                         std::size_t step, int count, int n) {                         \
+    return n == kSiftLength ? twoNearest(query, others, step, count, kSiftLength)                      \
+                            : twoNearest(query, others, step, count, n);                               \
+  }                                                                                                    \
   constexpr Functions kFunctions_##name{distanceBelow_##name, twoNearest_##name};
 
 POMONA_DISTANCE_FUNCTIONS(baseline, )
@@ -82,8 +82,7 @@ const Functions& functions() {
 
 void requireDescriptors(const cv::Mat& queries, const cv::Mat& others) {
   for (const cv::Mat* m : {&queries, &others})
-    if (!m->empty() && m->type() != CV_8UC1)
-      throw std::invalid_argument("descriptors are not of 8 bits");
+    if (!m->empty() && m->type() != CV_8UC1) throw std::invalid_argument("descriptors are not of 8 bits");
   if (!queries.empty() && !others.empty() && queries.cols != others.cols)
     throw std::invalid_argument("descriptors have " + std::to_string(queries.cols) + " and " +
                                 std::to_string(others.cols) + " values; allowed: equally many");

@@ -113,14 +113,14 @@ std::vector<FeatureMatch> matchAlongRows(const ViewFeatures& left, const ViewFea
     const cv::KeyPoint& here = left.keypoints[i];
     const int number = static_cast<int>(i);
     candidates.clear();
-    rows.forEach(here.pt.y - constraints.max_row_offset_px, here.pt.y + constraints.max_row_offset_px,
-                 [&](int j) {
-                   if (!constraints.allow(here, right.keypoints[static_cast<std::size_t>(j)])) return;
-                   const int distance = combinedDistance(left.descriptors.ptr(number), right.descriptors.ptr(j),
-                                                         left.descriptors.cols);
-                   candidates.push_back({j, distance});
-                   nearest_left.offer(j, {number, distance});
-                 });
+    rows.forEach(
+        here.pt.y - constraints.max_row_offset_px, here.pt.y + constraints.max_row_offset_px, [&](int j) {
+          if (!constraints.allow(here, right.keypoints[static_cast<std::size_t>(j)])) return;
+          const int distance =
+              combinedDistance(left.descriptors.ptr(number), right.descriptors.ptr(j), left.descriptors.cols);
+          candidates.push_back({j, distance});
+          nearest_left.offer(j, {number, distance});
+        });
     const int winner = clearWinner(candidates, right, options.ratio);
     if (winner >= 0) found.push_back({number, winner});
   }

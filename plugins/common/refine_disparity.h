@@ -6,8 +6,8 @@
 namespace pomona {
 
 struct RefineOptions {
-  int radius_px = 5;            ///< of the square window that is registered, 1..50
-  float max_step_px = 1;        ///< how far the result may be from the first guess
+  int radius_px = 5;             ///< of the square window that is registered, 1..50
+  float max_step_px = 1;         ///< how far the result may be from the first guess
   float min_correlation = 0.8f;  ///< of the two windows, -1..1
 };
 
