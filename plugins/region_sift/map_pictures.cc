@@ -78,12 +78,22 @@ class MetricCanvas {
 };
 
 // Blue is far, red is near.
-cv::Scalar colorOf(double z_m, const Range& depth) {
-  const double share = std::clamp((depth.high - z_m) / (depth.high - depth.low), 0.0, 1.0);
-  cv::Mat color;
-  cv::applyColorMap(cv::Mat(1, 1, CV_8U, cv::Scalar(255 * share)), color, cv::COLORMAP_JET);
-  return color.at<cv::Vec3b>(0);
-}
+class DepthColors {
+ public:
+  explicit DepthColors(const Range& depth) : depth_(depth) {
+    cv::Mat shares(1, 256, CV_8U);
+    for (int i = 0; i < 256; ++i) shares.at<std::uint8_t>(i) = static_cast<std::uint8_t>(i);
+    cv::applyColorMap(shares, colors_, cv::COLORMAP_JET);
+  }
+  cv::Scalar at(double z_m) const {
+    const double share = std::clamp((depth_.high - z_m) / (depth_.high - depth_.low), 0.0, 1.0);
+    return colors_.at<cv::Vec3b>(cvRound(255 * share));
+  }
+
+ private:
+  Range depth_;
+  cv::Mat colors_;
+};
 
 }  // namespace
 
@@ -100,8 +110,9 @@ std::vector<SparsePicture> mapPictures(const std::vector<SparsePoint>& points, d
   MetricCanvas top(xs, {0, depths.high}, "X, m", "Z, m");
   // From far to near, so that the near ones cover the others as they do in the view.
   std::sort(known.begin(), known.end(), [](auto& a, auto& b) { return a.z > b.z; });
+  const DepthColors colors(depths);
   for (const cv::Point3f& p : known) {
-    const cv::Scalar color = colorOf(p.z, depths);
+    const cv::Scalar color = colors.at(p.z);
     front.point(p.x, height(p), color);
     top.point(p.x, p.z, color);
   }

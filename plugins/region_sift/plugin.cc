@@ -23,6 +23,7 @@ RegionOptions regionOptions(const PluginSettings& s) {
   options.whole_region = s.isOn("whole_region");
   options.joined = s.isOn("joined");
   options.equalise = s.isOn("equalise");
+  options.scale = s.real("scale");
   options.sift = {s.real("contrast_threshold"), s.integer("max_features")};
   return options;
 }
@@ -56,6 +57,7 @@ class RegionSift final : public SparseStereoPlugin {
         switchParameter("whole_region", "Use the whole view, too", false),
         switchParameter("joined", "One pass over all regions instead of one for each", true),
         switchParameter("equalise", "Equalise the histogram of each region", false),
+        realParameter("scale", "Of the picture that SIFT works on to the view", 0.7, 0.25, 1),
         realParameter("contrast_threshold", "SIFT's, as OpenCV counts it", 0.01, 0.001, 0.5),
         integerParameter("max_features", "Of each region, the strongest; 0: all", 0, 0, 100000),
         switchParameter("along_rows", "Match among what the constraints allow, instead of among all", true),
@@ -68,6 +70,7 @@ class RegionSift final : public SparseStereoPlugin {
         realParameter("max_size_ratio", "Of the sizes of a match's keypoints", 1.5, 1, 1000),
         realParameter("max_turn_deg", "Between the orientations of a match's keypoints", 30, 0, 180),
         switchParameter("refine", "Register the pixels around each match; drop those that don't fit", true),
+        realParameter("max_step_px", "How far registering may move a disparity", 1, 0.01, 10),
         realParameter("min_correlation", "Of the registered windows", 0.8, 0, 1),
         realParameter("sigma_px", "Standard deviation of disparities that were not refined", 0.5, 0.01, 10),
         realParameter("camera_height_m", "Of the left camera above the floor, for the map", 0.5, 0, 100),
@@ -79,6 +82,7 @@ class RegionSift final : public SparseStereoPlugin {
              "As published: histograms equalised in each region, all against all, then the constraints",
              {{"joined", "off"},
               {"equalise", "on"},
+              {"scale", "1"},
               {"contrast_threshold", "0.04"},
               {"along_rows", "off"},
               {"mutual", "off"},
@@ -130,6 +134,7 @@ class RegionSift final : public SparseStereoPlugin {
     auto sigma_px = static_cast<float>(settings.real("sigma_px"));
     if (settings.isOn("refine")) {
       RefineOptions options;
+      options.max_step_px = static_cast<float>(settings.real("max_step_px"));
       options.min_correlation = static_cast<float>(settings.real("min_correlation"));
       const RefinedDisparity refined = refineDisparity(left, right, left_px, left_px.x - right_px.x, options);
       if (!refined.ok) return;

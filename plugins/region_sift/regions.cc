@@ -72,6 +72,32 @@ void merge(ViewFeatures& all, const ViewFeatures& more) {
   }
 }
 
+cv::Mat equalised(const cv::Mat& gray) {
+  cv::Mat flat;
+  cv::equalizeHist(gray, flat);
+  return flat;
+}
+
+// Those of `part`, whose upper left corner lies at `origin` of the view, in pixels of the view.
+ViewFeatures featuresAtScale(const cv::Mat& part, const cv::Mat& mask, const cv::Point2f& origin,
+                             const RegionOptions& options) {
+  cv::Mat scaled = part, scaled_mask = mask;
+  if (options.scale < 1) {
+    const cv::Size size(std::max(1, cvRound(options.scale * part.cols)),
+                        std::max(1, cvRound(options.scale * part.rows)));
+    cv::resize(part, scaled, size, 0, 0, cv::INTER_AREA);
+    if (!mask.empty()) cv::resize(mask, scaled_mask, size, 0, 0, cv::INTER_NEAREST);
+  }
+  ViewFeatures features = siftFeatures(scaled, scaled_mask, options.sift);
+  const float x = static_cast<float>(part.cols) / static_cast<float>(scaled.cols);
+  const float y = static_cast<float>(part.rows) / static_cast<float>(scaled.rows);
+  for (cv::KeyPoint& k : features.keypoints) {
+    k.pt = origin + cv::Point2f((k.pt.x + 0.5f) * x - 0.5f, (k.pt.y + 0.5f) * y - 0.5f);
+    k.size *= x;
+  }
+  return features;
+}
+
 }  // namespace
 
 std::vector<cv::Rect> regionsOf(cv::Size view, const RegionOptions& options) {
@@ -89,15 +115,9 @@ std::vector<cv::Rect> regionsOf(cv::Size view, const RegionOptions& options) {
 ViewFeatures regionFeatures(const cv::Mat& gray, const cv::Mat& mask, const RegionOptions& options) {
   ViewFeatures all;
   for (const cv::Rect& region : regionsOf(gray.size(), options)) {
-    cv::Mat part;
-    if (options.equalise)
-      cv::equalizeHist(gray(region), part);
-    else
-      part = gray(region);
-    ViewFeatures features = siftFeatures(part, mask.empty() ? mask : mask(region), options.sift);
-    const cv::Point2f origin(region.tl());
-    for (cv::KeyPoint& k : features.keypoints) k.pt += origin;
-    merge(all, features);
+    const cv::Mat part = options.equalise ? equalised(gray(region)) : gray(region);
+    const cv::Mat part_mask = mask.empty() ? mask : mask(region);
+    merge(all, featuresAtScale(part, part_mask, region.tl(), options));
   }
   return all;
 }

@@ -23,6 +23,9 @@ struct RegionOptions {
   /// One pass over all that the regions cover, instead of one for each.
   bool joined = false;
   bool equalise = true;  ///< the histogram of each region (of all, if joined)
+  /// Of the picture that SIFT works on to the view, 0.25..1. SIFT begins by doubling its picture; most of its
+  /// time goes into that, and few of the keypoints it gains are found again where there is little texture.
+  double scale = 1;
   SiftOptions sift;
 };
 
