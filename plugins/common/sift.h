@@ -2,13 +2,18 @@
 #pragma once
 
 #include <opencv2/core.hpp>
-
-#include "plugins/common/epipolar_matching.h"
+#include <vector>
 
 namespace pomona {
 
 /// Gray as it is, or made of BGR. CV_8UC1; shares memory with `view` if it can.
 cv::Mat grayOf(const cv::Mat& view);
+
+/// Keypoints of one view, and a row of CV_8U descriptor for each.
+struct ViewFeatures {
+  std::vector<cv::KeyPoint> keypoints;
+  cv::Mat descriptors;
+};
 
 struct SiftOptions {
   double contrast_threshold = 0.04;  ///< of Lowe 2004, as OpenCV counts it

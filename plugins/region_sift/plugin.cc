@@ -2,11 +2,13 @@
 // texture.
 #include "pomona/plugin.h"
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "plugins/common/epipolar_matching.h"
+#include "plugins/common/matching.h"
 #include "plugins/common/refine_disparity.h"
 #include "plugins/common/stopwatch.h"
 #include "plugins/common/triangulation.h"
@@ -28,19 +30,39 @@ RegionOptions regionOptions(const PluginSettings& s) {
   return options;
 }
 
-MatchingOptions matchingOptions(const PluginSettings& s, const StereoCalibration& rig, int width) {
-  MatchingOptions options;
-  EpipolarConstraints& c = options.constraints;
-  c.max_row_offset_px = static_cast<float>(s.real("max_row_offset_px"));
-  c.min_disparity_px = static_cast<float>(s.real("min_disparity_px"));
-  c.max_disparity_px = static_cast<float>(s.integer("max_disparity_px"));
-  if (c.max_disparity_px == 0) c.max_disparity_px = static_cast<float>(rig.num_disparities);
-  if (c.max_disparity_px == 0) c.max_disparity_px = static_cast<float>(width);
-  c.max_size_ratio = static_cast<float>(s.real("max_size_ratio"));
-  c.max_turn_deg = static_cast<float>(s.real("max_turn_deg"));
+RowBand bandOf(const PluginSettings& s, const StereoCalibration& rig, int width) {
+  RowBand band;
+  band.max_row_offset_px = static_cast<float>(s.real("max_row_offset_px"));
+  band.min_disparity_px = static_cast<float>(s.real("min_disparity_px"));
+  band.max_disparity_px = static_cast<float>(s.integer("max_disparity_px"));
+  if (band.max_disparity_px == 0) band.max_disparity_px = static_cast<float>(rig.num_disparities);
+  if (band.max_disparity_px == 0) band.max_disparity_px = static_cast<float>(width);
+  return band;
+}
+
+bool looksAlike(const cv::KeyPoint& a, const cv::KeyPoint& b, const PluginSettings& s) {
+  const double turn_deg = std::abs(a.angle - b.angle), ratio = s.real("max_size_ratio");
+  return a.size <= ratio * b.size && b.size <= ratio * a.size &&
+         std::min(turn_deg, 360 - turn_deg) <= s.real("max_turn_deg");
+}
+
+// Matches that satisfy the constraints: searched for among those that do, or, as published, among all and
+// then picked.
+std::vector<KeypointMatch> matched(const ViewFeatures& left, const ViewFeatures& right, const RowBand& band,
+                                   const PluginSettings& s, int threads) {
+  MatchOptions options;
+  options.distance = DescriptorDistance::kCombined;
   options.ratio = static_cast<float>(s.real("ratio"));
   options.mutual = s.isOn("mutual");
-  return options;
+  options.threads = threads;
+  std::vector<KeypointMatch> matches =
+      matchKeypoints(left.descriptors, right.descriptors, options, s.isOn("along_rows") ? band : RowBand{},
+                     left.keypoints, right.keypoints);
+  std::erase_if(matches, [&](const KeypointMatch& m) {
+    const cv::KeyPoint &l = left.keypoints[m.left], &r = right.keypoints[m.right];
+    return !band.allows(l.pt, r.pt) || !looksAlike(l, r, s);
+  });
+  return matches;
 }
 
 class RegionSift final : public SparseStereoPlugin {
@@ -103,17 +125,14 @@ class RegionSift final : public SparseStereoPlugin {
     const ViewFeatures right = regionFeatures(right_gray, {}, regions);
     const double features_ms = watch.lapMs();
 
-    const MatchingOptions matching = matchingOptions(settings, rig, left_gray.cols);
-    const auto match = settings.isOn("along_rows") ? matchAlongRows : matchAll;
-    const std::vector<FeatureMatch> matches = match(left, right, matching);
+    const RowBand band = bandOf(settings, rig, left_gray.cols);
+    const std::vector<KeypointMatch> matches = matched(left, right, band, settings, inputs.threads);
     const double matching_ms = watch.lapMs();
 
     SparseResult result;
-    for (const FeatureMatch& m : matches) {
-      const cv::Point2f left_px = left.keypoints[static_cast<std::size_t>(m.left)].pt;
-      const cv::Point2f right_px = right.keypoints[static_cast<std::size_t>(m.right)].pt;
-      addPoint(left_gray, right_gray, left_px, right_px, rig, settings, result.points);
-    }
+    for (const KeypointMatch& m : matches)
+      addPoint(left_gray, right_gray, left.keypoints[m.left].pt, right.keypoints[m.right].pt, rig, settings,
+               result.points);
     const double refinement_ms = watch.lapMs();
     if (settings.isOn("map")) result.pictures = mapPictures(result.points, settings.real("camera_height_m"));
     result.figures = {{"features left", static_cast<double>(left.keypoints.size()), ""},

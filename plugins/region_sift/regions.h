@@ -12,7 +12,6 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-#include "plugins/common/epipolar_matching.h"
 #include "plugins/common/sift.h"
 
 namespace pomona {
