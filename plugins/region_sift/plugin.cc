@@ -2,8 +2,6 @@
 // texture.
 #include "pomona/plugin.h"
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,12 +38,6 @@ RowBand bandOf(const PluginSettings& s, const StereoCalibration& rig, int width)
   return band;
 }
 
-bool looksAlike(const cv::KeyPoint& a, const cv::KeyPoint& b, const PluginSettings& s) {
-  const double turn_deg = std::abs(a.angle - b.angle), ratio = s.real("max_size_ratio");
-  return a.size <= ratio * b.size && b.size <= ratio * a.size &&
-         std::min(turn_deg, 360 - turn_deg) <= s.real("max_turn_deg");
-}
-
 // Matches that satisfy the constraints: searched for among those that do, or, as published, among all and
 // then picked.
 std::vector<KeypointMatch> matched(const ViewFeatures& left, const ViewFeatures& right, const RowBand& band,
@@ -59,8 +51,7 @@ std::vector<KeypointMatch> matched(const ViewFeatures& left, const ViewFeatures&
       matchKeypoints(left.descriptors, right.descriptors, options, s.isOn("along_rows") ? band : RowBand{},
                      left.keypoints, right.keypoints);
   std::erase_if(matches, [&](const KeypointMatch& m) {
-    const cv::KeyPoint &l = left.keypoints[m.left], &r = right.keypoints[m.right];
-    return !band.allows(l.pt, r.pt) || !looksAlike(l, r, s);
+    return !band.allows(left.keypoints[m.left].pt, right.keypoints[m.right].pt);
   });
   return matches;
 }
@@ -79,8 +70,8 @@ class RegionSift final : public SparseStereoPlugin {
         switchParameter("whole_region", "Use the whole view, too", false),
         switchParameter("joined", "One pass over all regions instead of one for each", true),
         switchParameter("equalise", "Equalise the histogram of each region", false),
-        realParameter("scale", "Of the picture that SIFT works on to the view", 0.7, 0.25, 1),
-        realParameter("contrast_threshold", "SIFT's, as OpenCV counts it", 0.01, 0.001, 0.5),
+        realParameter("scale", "Of the picture that SIFT works on to the view", 0.6, 0.25, 1),
+        realParameter("contrast_threshold", "SIFT's, as OpenCV counts it", 0.004, 0.001, 0.5),
         integerParameter("max_features", "Of each region, the strongest; 0: all", 0, 0, 100000),
         switchParameter("along_rows", "Match among what the constraints allow, instead of among all", true),
         realParameter("ratio", "Of nearest to second nearest distance", 0.7, 0.1, 1),
@@ -89,8 +80,6 @@ class RegionSift final : public SparseStereoPlugin {
         realParameter("min_disparity_px", "Smallest disparity of a match", 3, 0, 8192),
         integerParameter("max_disparity_px", "Largest disparity; 0: the calibration's bound, else the width",
                          0, 0, 8192),
-        realParameter("max_size_ratio", "Of the sizes of a match's keypoints", 1.5, 1, 1000),
-        realParameter("max_turn_deg", "Between the orientations of a match's keypoints", 30, 0, 180),
         switchParameter("refine", "Register the pixels around each match; drop those that don't fit", true),
         realParameter("max_step_px", "How far registering may move a disparity", 1, 0.01, 10),
         realParameter("min_correlation", "Of the registered windows", 0.8, 0, 1),
@@ -110,8 +99,6 @@ class RegionSift final : public SparseStereoPlugin {
               {"mutual", "off"},
               {"max_row_offset_px", "3"},
               {"max_disparity_px", "8192"},
-              {"max_size_ratio", "1000"},
-              {"max_turn_deg", "180"},
               {"refine", "off"}}}};
   }
 
