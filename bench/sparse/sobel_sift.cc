@@ -1,0 +1,7 @@
+#include "bench/sparse/tables.h"
+
+namespace pomona {
+
+void writeSobelSiftTable(std::ostream&, const SparseTableOptions&) {}
+
+}  // namespace pomona
