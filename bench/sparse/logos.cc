@@ -49,10 +49,10 @@ class Way {
     int scenes = 0;
     for (const int count : scenes_) scenes += count;
     char line[256];
-    std::snprintf(line, sizeof(line),
-                  "| %s | %d/%d | %d/%d %d/%d %d/%d %d/%d | %.2f | %.2f | %.2f | %.0f | %.0f |\n", name_.c_str(),
-                  int(percent_.size()), scenes, found_[0], scenes_[0], found_[1], scenes_[1], found_[2], scenes_[2],
-                  found_[3], scenes_[3], sum / n, most, bearing_deg_ / n, 100 * within_ / n, ms_ / scenes);
+    std::snprintf(
+        line, sizeof(line), "| %s | %d/%d | %d/%d %d/%d %d/%d %d/%d | %.2f | %.2f | %.2f | %.0f | %.0f |\n",
+        name_.c_str(), int(percent_.size()), scenes, found_[0], scenes_[0], found_[1], scenes_[1], found_[2],
+        scenes_[2], found_[3], scenes_[3], sum / n, most, bearing_deg_ / n, 100 * within_ / n, ms_ / scenes);
     out << line;
   }
 
@@ -103,7 +103,8 @@ class Comparison {
   }
 
   void write(std::ostream& out) const {
-    out << "| | found | at 0, 15, 30, 45 degrees | mean error, % | largest, % | bearing off, degrees | within 2 sigma, "
+    out << "| | found | at 0, 15, 30, 45 degrees | mean error, % | largest, % | bearing off, degrees | "
+           "within 2 sigma, "
            "% | ms |\n|---|--:|---|--:|--:|--:|--:|--:|\n"
         << "| published, SURF | | none beyond 30 | 12 | | | | |\n";
     faithful_.write(out);
@@ -141,10 +142,12 @@ class Comparison {
 
   void addBoxes(const SignScene& scene, const StereoResult& dense, double dense_ms, std::uint64_t seed) {
     Random random(seed);
-    const Boxes boxes{{{0, 1, jittered(scene.left_box_px, random)}}, {{0, 1, jittered(scene.right_box_px, random)}}};
+    const Boxes boxes{{{0, 1, jittered(scene.left_box_px, random)}},
+                      {{0, 1, jittered(scene.right_box_px, random)}}};
     const auto run = [&](BoxRanging ranging) {
-      return rangedOf(rangeBoxes(boxes, scene.pair.calibration, ranging, [&]() -> const StereoResult& { return dense; },
-                                 [](int) { return "sign"; }));
+      return rangedOf(rangeBoxes(
+          boxes, scene.pair.calibration, ranging, [&]() -> const StereoResult& { return dense; },
+          [](int) { return "sign"; }));
     };
     centers_.add(scene, run(BoxRanging::kCenters), 0);
     boxes_.add(scene, run(BoxRanging::kDense), dense_ms);
@@ -154,8 +157,10 @@ class Comparison {
   PluginHost host_;
   LoadedPlugin* plugin_ = nullptr;
   std::string learned_;
-  Way faithful_{"`variant=faithful`"}, default_{"default"}, outline_{"dense map (`balanced`) in the true outline"};
-  Way centers_{"boxes off by up to 5 %, `box_ranging=centers`"}, boxes_{"the same boxes, `box_ranging=dense`"};
+  Way faithful_{"`variant=faithful`"}, default_{"default"},
+      outline_{"dense map (`balanced`) in the true outline"};
+  Way centers_{"boxes off by up to 5 %, `box_ranging=centers`"},
+      boxes_{"the same boxes, `box_ranging=dense`"};
 };
 
 }  // namespace

@@ -17,7 +17,9 @@ struct Table {
   const char* name;
   void (*write)(std::ostream&, const SparseTableOptions&);
 };
-constexpr Table kTables[] = {{"region-sift", writeRegionSiftTable}, {"sobel-sift", writeSobelSiftTable}};
+constexpr Table kTables[] = {{"region-sift", writeRegionSiftTable}, {"sobel-sift", writeSobelSiftTable},
+                            {"segment-recognition", writeSegmentRecognitionTable},
+                            {"logo-range", writeLogoRangeTable}};
 
 std::vector<std::string> tableNames() {
   std::vector<std::string> names;

@@ -132,7 +132,8 @@ cv::Mat coverPicture(int number) {
   };
   write(picture, word(7), {24, 62}, 2.0, ink(), 5);
   write(picture, word(9), {26, 104}, 1.1, ink(), 2);
-  for (int line = 0; line < 4; ++line) write(picture, word(5) + ' ' + word(8), {28, 420 + 15 * line}, 0.5, ink(), 1);
+  for (int line = 0; line < 4; ++line)
+    write(picture, word(5) + ' ' + word(8), {28, 420 + 15 * line}, 0.5, ink(), 1);
   return picture;
 }
 
@@ -166,15 +167,16 @@ ObjectScene objectScene(int number) {
   SceneDescription scene = emptyRoom(static_cast<std::uint64_t>(number));
   for (int i = 0; i < 6; ++i)  // posters, never of the covers in question
     scene.surfaces.push_back(panel({-1.9 + 0.76 * i, random.between(-0.9, 0.9), 3.97}, 0.33, 0.44, 0,
-                                   random.between(-10, 10), coverPicture(kKnownCovers + (number * 6 + i) % 24)));
+                                   random.between(-10, 10),
+                                   coverPicture(kKnownCovers + (number * 6 + i) % 24)));
   ObjectScene room;
   const double first = random.between(-0.02, 0.02);
   for (int i = 0; i < kKnownCovers; ++i) {
     const double z_m = random.between(0.9, 1.6), share = (i - 1) * 0.3 + first;  // of the view's width
     const Vec3d center(share * z_m * scene.width / scene.focal_px, random.between(-0.1, 0.1) * z_m, z_m);
     const int cover = (i + number) % kKnownCovers;
-    scene.surfaces.push_back(panel(center, 0.12, 0.16, random.between(-35, 35), random.between(-20, 20),
-                                   coverPicture(cover)));
+    scene.surfaces.push_back(
+        panel(center, 0.12, 0.16, random.between(-35, 35), random.between(-20, 20), coverPicture(cover)));
     room.objects.push_back({cover, static_cast<int>(scene.surfaces.size()) - 1,
                             imageFromPicture(scene, scene.surfaces.back()), cv::norm(center)});
   }

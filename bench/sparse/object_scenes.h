@@ -12,7 +12,8 @@ namespace pomona {
 
 /// A shop's sign, 720 x 240: a frame, an emblem, its name, and a line below.
 cv::Mat signPicture();
-/// A book's cover, 360 x 480: a title, blocks and discs of colour, lines of small print; each `number` another.
+/// A book's cover, 360 x 480: a title, blocks and discs of colour, lines of small print; each `number`
+/// another.
 cv::Mat coverPicture(int number);
 
 /// A sign on a wall.
@@ -25,10 +26,9 @@ struct SignScene {
   RenderedPair pair;
 };
 
-/// The rendered shop front with a sign of 2.4 m x 0.8 m that shows signPicture(): depths 5.48, 8.53, 11.58 and
-/// 14.63 m, each at yaws of -45 to 45 degrees in steps of 15, up to 10
-/// degrees aside; the harvesting robot's rig (1280 x 720, f 1056.6 px,
-/// baseline 120 mm), with blur and noise.
+/// The rendered shop front with a sign of 2.4 m x 0.8 m that shows signPicture(): depths 5.48, 8.53, 11.58
+/// and 14.63 m, each at yaws of -45 to 45 degrees in steps of 15, up to 10 degrees aside; the harvesting
+/// robot's rig (1280 x 720, f 1056.6 px, baseline 120 mm), with blur and noise.
 constexpr int kSignScenes = 28;
 SignScene signScene(int number);
 
@@ -46,7 +46,8 @@ struct ObjectScene {
 };
 
 /// Three covers, 0.24 m x 0.32 m, 0.9 to 1.6 m away and turned by up to 35 degrees, before a brick wall with
-/// posters of covers that aren't in question, 4 m away: 640 x 480, f 560 px, baseline 60 mm, with blur and noise.
+/// posters of covers that aren't in question, 4 m away: 640 x 480, f 560 px, baseline 60 mm, with blur and
+/// noise.
 constexpr int kObjectScenes = 20, kKnownCovers = 3;
 ObjectScene objectScene(int number);
 

@@ -15,5 +15,7 @@ struct SparseTableOptions {
 /// Each writes one section in Markdown.
 void writeRegionSiftTable(std::ostream& out, const SparseTableOptions& options);
 void writeSobelSiftTable(std::ostream& out, const SparseTableOptions& options);
+void writeSegmentRecognitionTable(std::ostream& out, const SparseTableOptions& options);
+void writeLogoRangeTable(std::ostream& out, const SparseTableOptions& options);
 
 }  // namespace pomona

@@ -26,6 +26,8 @@ class ObjectMatcher {
  public:
   explicit ObjectMatcher(const ObjectDatabase& database);
 
+  FeatureKind kind() const { return database_.kind; }
+
   /// One match for each row of `descriptors`, in their order. Views of one object that show the same place
   /// (to a twentieth of its size) don't compete with each other.
   std::vector<ObjectMatch> match(const cv::Mat& descriptors) const;

@@ -7,18 +7,11 @@
 #include "plugins/common/matching.h"
 #include "plugins/common/stopwatch.h"
 #include "plugins/common/triangulation.h"
-#include "plugins/logo_range/disparity_plane.h"
 
 namespace pomona {
 namespace {
 
 constexpr float kFeatureSigma_px = 0.5f;  // of a disparity between two features
-constexpr int kLeastPoints = 3;
-
-// Disparities that can be: of the calibration where it says so, else up to a third of the width.
-double largestDisparity(const StereoCalibration& rig, const cv::Mat& view) {
-  return rig.num_disparities > 0 ? rig.num_disparities : view.cols / 3.0;
-}
 
 cv::Mat searchMask(const cv::Mat& view, const cv::Mat& mask, bool upper_half) {
   if (!upper_half) return mask;
@@ -66,10 +59,10 @@ class SignRanger {
       object.box_px = cv::boundingRect(place.outline_px);
       const std::vector<SparsePoint> points = pointsOn(number, place);
       result_.points.insert(result_.points.end(), points.begin(), points.end());
-      if (options_.ranging == SignRanging::kFeatureMean)
+      if (options_.ranging == ObjectRanging::kMean)
         rangeByMean(points, object);
       else
-        rangeByPlane(points, mapped(place.image_from_picture, middleOf(known)), object);
+        rangeByPlane(left_, right_, rig_, points, mapped(place.image_from_picture, middleOf(known)), object);
     }
     result_.objects.push_back(std::move(object));
   }
@@ -86,7 +79,7 @@ class SignRanger {
       on.keypoints.push_back(features_.keypoints[i]);
       on.descriptors.push_back(features_.descriptors.row(i));
     };
-    if (options_.ranging == SignRanging::kFeatureMean) {
+    if (options_.ranging == ObjectRanging::kMean) {
       for (const ObjectMatch& match : place.agreeing) add(match.query);
     } else {
       for (int i = 0; i < features_.count(); ++i)
@@ -122,53 +115,6 @@ class SignRanger {
     cv::Mat mask = cv::Mat::zeros(right_.size(), CV_8U);
     mask(allowed & cv::Rect(0, 0, right_.cols, right_.rows)).setTo(255);
     return mask;
-  }
-
-  static void rangeByMean(const std::vector<SparsePoint>& points, SparseObject& object) {
-    if (static_cast<int>(points.size()) < kLeastPoints) return fail(points.size(), object);
-    double sum = 0, squares = 0;
-    for (const SparsePoint& point : points) sum += point.point_m.z;
-    const double mean = sum / double(points.size());
-    for (const SparsePoint& point : points) squares += (point.point_m.z - mean) * (point.point_m.z - mean);
-    const double deviation = std::sqrt(squares / double(points.size()));
-    cv::Point3d middle;
-    int kept = 0;
-    for (const SparsePoint& point : points) {
-      if (std::abs(point.point_m.z - mean) > deviation) continue;
-      middle += cv::Point3d(point.point_m);
-      ++kept;
-    }
-    if (kept == 0) return fail(0, object);
-    setPoint(middle * (1.0 / kept), deviation / std::sqrt(double(kept)), kept, object);
-  }
-
-  void rangeByPlane(const std::vector<SparsePoint>& points, const cv::Point2d& middle, SparseObject& object) {
-    constexpr double kTolerance_px = 1;
-    std::vector<PlaceDisparity> disparities;
-    for (const SparsePoint& point : points) disparities.push_back({point.left_px, point.disparity_px});
-    std::optional<DisparityPlane> plane = fitDisparityPlane(disparities, middle, kTolerance_px, kLeastPoints);
-    if (!plane) return fail(points.size(), object);
-    // Where the views can't be aligned, as on a glossy sign, the features' own plane it is.
-    if (const auto aligned = alignDisparityPlane(left_, right_, object.outline_px, *plane)) plane = aligned;
-    const cv::Point2f at = middle;
-    const SparsePoint point = triangulate(rig_, at, at - cv::Point2f(float(plane->disparity_px), 0),
-                                          static_cast<float>(plane->sigma_px));
-    if (!std::isfinite(point.point_m.z)) return fail(0, object);
-    setPoint(point.point_m, point.sigma_z_m, static_cast<int>(points.size()), object);
-  }
-
-  static void fail(std::size_t points, SparseObject& object) {
-    object.why_not = "seen, but only " + std::to_string(points) + " of at least " +
-                     std::to_string(kLeastPoints) + " features could be ranged";
-  }
-
-  // `sigma_m` is that of Z; along the line of sight it is longer as the distance is.
-  static void setPoint(const cv::Point3d& point_m, double sigma_m, int support, SparseObject& object) {
-    object.point_m = point_m;
-    object.distance_m = distanceOf(point_m);
-    object.sigma_m = sigma_m * object.distance_m / point_m.z;
-    object.bearing_deg = bearingOf(point_m);
-    object.support = support;
   }
 
   const cv::Mat left_, right_;

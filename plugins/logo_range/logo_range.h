@@ -4,17 +4,10 @@
 #include <opencv2/core.hpp>
 
 #include "plugins/common/object_match.h"
+#include "plugins/common/object_range.h"
 #include "pomona/plugin.h"
 
 namespace pomona {
-
-enum class SignRanging {
-  /// The mean of the matched features' points, without those whose depth is off the mean by more than one
-  /// standard deviation.
-  kFeatureMean,
-  /// The middle of the sign on the plane that aligns the views (alignDisparityPlane()).
-  kAlignedPlane,
-};
 
 struct LogoRangeOptions {
   double sensitivity = 2;   ///< of the features in the views, see FeatureFinder
@@ -22,7 +15,7 @@ struct LogoRangeOptions {
   LocateOptions locate;
   double pair_ratio = 0.85;  ///< see MatchOptions
   double max_row_offset_px = 2;
-  SignRanging ranging = SignRanging::kAlignedPlane;
+  ObjectRanging ranging = ObjectRanging::kPlane;
 };
 
 /// Looks for each object of `database` and ranges what it finds: one entry in `objects` each, found or not,

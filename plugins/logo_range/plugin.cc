@@ -69,8 +69,7 @@ class LogoRange final : public SparseStereoPlugin {
     options.locate.min_agreeing = settings.integer("min_agreeing");
     options.pair_ratio = settings.real("pair_ratio");
     options.max_row_offset_px = settings.real("max_row_offset_px");
-    options.ranging =
-        settings.text("sign_ranging") == "mean" ? SignRanging::kFeatureMean : SignRanging::kAlignedPlane;
+    options.ranging = settings.text("sign_ranging") == "mean" ? ObjectRanging::kMean : ObjectRanging::kPlane;
     return rangeSigns(pair, rig, inputs.mask, signs_.open(settings), options);
   }
 

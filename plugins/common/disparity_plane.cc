@@ -1,4 +1,4 @@
-#include "plugins/logo_range/disparity_plane.h"
+#include "plugins/common/disparity_plane.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "plugins/logo_range/disparity_plane.h"
+#include "plugins/common/disparity_plane.h"
 
 namespace pomona {
 namespace {
@@ -60,9 +60,10 @@ class Alignment {
       const Row step = inverse * equations.right_side;
       apply(step);
       // Neighbouring pixels err together: the number of independent ones is that of blurred 3 x 3 blocks.
-      constexpr double kPixelsPerSample = 9;
+      // What interpolation and the sampling of the views leave, however large the outline, adds to that.
+      constexpr double kPixelsPerSample = 9, kModel_px = 0.01;
       const double variance = equations.squares / equations.weights;
-      plane_.sigma_px = std::sqrt(kPixelsPerSample * variance * inverse(0, 0));
+      plane_.sigma_px = std::sqrt(kModel_px * kModel_px + kPixelsPerSample * variance * inverse(0, 0));
       if (std::abs(step[0]) + std::abs(step[1]) + std::abs(step[2]) < kStill_px) break;
     }
     return true;
