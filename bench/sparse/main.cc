@@ -17,9 +17,11 @@ struct Table {
   const char* name;
   void (*write)(std::ostream&, const SparseTableOptions&);
 };
-constexpr Table kTables[] = {{"region-sift", writeRegionSiftTable}, {"sobel-sift", writeSobelSiftTable},
-                            {"segment-recognition", writeSegmentRecognitionTable},
-                            {"logo-range", writeLogoRangeTable}};
+constexpr Table kTables[] = {{"region-sift", writeRegionSiftTable},
+                             {"sobel-sift", writeSobelSiftTable},
+                             {"segment-recognition", writeSegmentRecognitionTable},
+                             {"logo-range", writeLogoRangeTable},
+                             {"real-queries", writeRealQueryTable}};
 
 std::vector<std::string> tableNames() {
   std::vector<std::string> names;

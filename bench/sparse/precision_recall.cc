@@ -70,7 +70,7 @@ cv::Mat drawCurves(const std::vector<JudgedMatches>& all) {
   for (const JudgedMatches& judged : all)
     for (const PrecisionRecall& point : curveOf(judged))
       most_recall = std::max(most_recall, point.recall + 0.05);
-  const cv::Scalar colors[] = {{60, 60, 200}, {40, 150, 230}, {60, 150, 40}, {190, 90, 30}};
+  const cv::Scalar colors[] = {{60, 60, 200}, {40, 150, 230}, {60, 150, 40}, {190, 90, 30}, {150, 60, 150}};
   cv::Mat picture(kHeight, kWidth, CV_8UC3, cv::Scalar::all(255));
   drawAxes(picture, most_recall);
   for (std::size_t i = 0; i < all.size(); ++i) {

@@ -27,9 +27,9 @@ double figureOf(const std::vector<SparseFigure>& figures, const std::string& nam
   return 0;
 }
 
-ObjectDatabase coversDatabase(FeatureKind kind, const std::vector<double>& yaws_deg) {
+ObjectDatabase coversDatabase(FeatureKind kind, double sensitivity, const std::vector<double>& yaws_deg) {
   ObjectDatabase database{kind, {}};
-  const TrainingOptions options{kind, 1, yaws_deg};
+  const TrainingOptions options{kind, sensitivity, yaws_deg};
   for (int i = 0; i < kKnownCovers; ++i)
     database.objects.push_back(learnObject("cover " + std::to_string(i), coverPicture(i), options));
   return database;
@@ -162,18 +162,22 @@ std::vector<Way> ways(int repetitions) {
   published.disparity = FeatureDisparity::kPartner;
   published.engine_map = false;
   published.ranging = ObjectRanging::kMean;
+  published.locate.model = PlaceModel::kHomography;
   published.locate.ratio = 0.7;
   published.locate.min_agreeing = 4;
-  const ObjectDatabase frontal = coversDatabase(publishedKind(), {});
+  const ObjectDatabase frontal = coversDatabase(publishedKind(), 1, {});
   std::vector<Way> all;
-  all.reserve(4);  // each keeps a matcher that refers to its own database
+  all.reserve(5);  // each keeps a matcher that refers to its own database
   published.filter = FeatureFilter::kNone;
   all.emplace_back("plain", frontal, published, repetitions);
   published.filter = FeatureFilter::kEpipolar;
   all.emplace_back("+ E", frontal, published, repetitions);
   published.filter = FeatureFilter::kDisparity;
   all.emplace_back("+ E + D (`variant=faithful`)", frontal, published, repetitions);
-  all.emplace_back("default", coversDatabase(FeatureKind::kRootSift, {}), RecognitionOptions(), repetitions);
+  all.emplace_back("default", coversDatabase(FeatureKind::kRootSift, 1, {}), RecognitionOptions(),
+                   repetitions);
+  all.emplace_back("`views=wide`, `picture_sensitivity=2`",
+                   coversDatabase(FeatureKind::kRootSift, 2, wideYaws()), RecognitionOptions(), repetitions);
   return all;
 }
 

@@ -17,5 +17,6 @@ void writeRegionSiftTable(std::ostream& out, const SparseTableOptions& options);
 void writeSobelSiftTable(std::ostream& out, const SparseTableOptions& options);
 void writeSegmentRecognitionTable(std::ostream& out, const SparseTableOptions& options);
 void writeLogoRangeTable(std::ostream& out, const SparseTableOptions& options);
+void writeRealQueryTable(std::ostream& out, const SparseTableOptions& options);
 
 }  // namespace pomona

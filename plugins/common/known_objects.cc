@@ -1,6 +1,10 @@
 #include "plugins/common/known_objects.h"
 
 #include <algorithm>
+#include <stdexcept>
+
+#include "datasets/atomic_file.h"
+#include "datasets/input_file.h"
 
 namespace pomona {
 namespace {
@@ -14,28 +18,40 @@ std::vector<std::string> featureNames() {
 
 }  // namespace
 
-std::vector<PluginParameter> KnownObjects::parameters() {
-  return {
-      textParameter("objects", "A database (.objects), or pictures of the objects, separated by commas"),
-      choiceParameter("features", "To learn pictures by; a database knows its own", featureNames()),
-      choiceParameter("views", "To learn of each picture: as if turned by up to 60 degrees, or itself alone",
-                      {"wide", "frontal"})};
+std::vector<PluginParameter> KnownObjects::parameters(Thoroughness thoroughness) {
+  const bool wide = thoroughness == Thoroughness::kWide;
+  std::vector<std::string> views = {"wide", "frontal"};
+  if (!wide) std::swap(views[0], views[1]);
+  return {textParameter("objects", "A database (.objects), or pictures of the objects, separated by commas"),
+          choiceParameter("features", "To learn pictures by; a database knows its own", featureNames()),
+          choiceParameter(
+              "views", "To learn of each picture: as if turned by up to 60 degrees, or itself alone", views),
+          realParameter("picture_sensitivity", "Divides the contrast that features of pictures need",
+                        wide ? 2 : 1, 0.1, 20),
+          textParameter("save_objects", "Database (.objects) to write what was learned to")};
 }
 
 std::vector<std::pair<std::string, std::string>> KnownObjects::faithful(const std::string& features) {
   const std::vector<std::string> names = featureNames();
   const bool known = std::find(names.begin(), names.end(), features) != names.end();
-  return {{"features", known ? features : "sift"}, {"views", "frontal"}};
+  return {{"features", known ? features : "sift"}, {"views", "frontal"}, {"picture_sensitivity", "1"}};
 }
 
 const ObjectDatabase& KnownObjects::open(const PluginSettings& settings) {
   const std::string& objects = settings.text("objects");
-  const std::string key = objects + '\n' + settings.text("features") + '\n' + settings.text("views");
+  std::string key = objects + '\n' + std::to_string(settings.real("picture_sensitivity"));
+  for (const char* name : {"features", "views", "save_objects"}) key += '\n' + settings.text(name);
   if (key == opened_) return database_;
   TrainingOptions options;
+  options.sensitivity = settings.real("picture_sensitivity");
   options.kind = featureKindOf(settings.text("features"));
   if (settings.text("views") == "wide") options.yaws_deg = wideYaws();
   database_ = openObjects(objects, options);
+  if (const std::string& path = settings.text("save_objects"); !path.empty()) {
+    if (extensionOf(path) != ".objects")
+      throw std::invalid_argument("save_objects is '" + path + "'; allowed: a name that ends in .objects");
+    writeFile(path, encodeObjectDatabase(database_));
+  }
   opened_ = key;
   return database_;
 }

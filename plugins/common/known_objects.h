@@ -10,15 +10,21 @@
 
 namespace pomona {
 
+/// What pictures are learned by unless the settings say otherwise.
+enum class Thoroughness {
+  kFrontal,  ///< the picture itself, and what stands out in it: quick to compare with
+  kWide,     ///< as if turned by up to 60 degrees, too, and fainter features
+};
+
 /// Opens the objects that settings name, and keeps them for the next run.
 class KnownObjects {
  public:
-  /// objects, features, views.
-  static std::vector<PluginParameter> parameters();
+  /// objects, features, views, picture_sensitivity, save_objects.
+  static std::vector<PluginParameter> parameters(Thoroughness thoroughness);
   /// What makes them those of a published method: one view, `features` (SIFT where this build lacks them).
   static std::vector<std::pair<std::string, std::string>> faithful(const std::string& features);
 
-  /// Throws as openObjects() does.
+  /// Throws as openObjects() does, and std::runtime_error if save_objects cannot be written.
   const ObjectDatabase& open(const PluginSettings& settings);
 
  private:

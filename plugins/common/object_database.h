@@ -34,8 +34,9 @@ struct TrainingOptions {
 /// The yaws that make up for features which bear about 15 degrees: -60, -45, -30, 30, 45, 60.
 std::vector<double> wideYaws();
 
-/// Learns `picture` (CV_8U, 1 or 3 channels), which shows the object from the front and nothing else. Throws
-/// std::invalid_argument naming `label` if it has no features, or a yaw is not allowed.
+/// Learns `picture` (CV_8U, 1 or 3 channels), which shows the object from the front and nothing else. One
+/// without texture leaves an object without features, which is never found. Throws std::invalid_argument
+/// naming `label` if a yaw is not allowed.
 KnownObject learnObject(const std::string& label, const cv::Mat& picture, const TrainingOptions& options);
 
 /// The database file: magic, version, kind of features, objects. Numbers are little-endian.

@@ -50,11 +50,12 @@ class Reader {
     }
     return value;
   }
-  // How many of something that takes `bytes_each` follow: never more than the rest of the file could hold.
-  std::uint32_t count(const char* what, std::size_t bytes_each) {
+  // How many of something that takes `bytes_each` follow: at least `low`, and never more than the rest of the
+  // file could hold.
+  std::uint32_t count(const char* what, std::uint32_t low, std::size_t bytes_each) {
     const std::size_t rest = bytes_.size() - at_;
     const std::size_t most = rest < sizeof(std::uint32_t) ? 0 : (rest - sizeof(std::uint32_t)) / bytes_each;
-    return number<std::uint32_t>(what, 1, static_cast<std::uint32_t>(std::max<std::size_t>(most, 1)));
+    return number<std::uint32_t>(what, low, std::max(low, static_cast<std::uint32_t>(most)));
   }
   void requireEnd() {
     if (at_ != bytes_.size()) fail("nothing is allowed after the last object");
@@ -87,7 +88,7 @@ KnownObject readObject(Reader& file, FeatureKind kind) {
   object.label = file.text(file.number<std::uint32_t>("the label's length", 1, kLongestLabel), "a label");
   object.size_px.width = file.number<std::int32_t>("width", 1, kLargestSide_px);
   object.size_px.height = file.number<std::int32_t>("height", 1, kLargestSide_px);
-  const std::uint32_t features = file.count("the number of features", featureBytes(length));
+  const std::uint32_t features = file.count("the number of features", 0, featureBytes(length));
   object.features.descriptors.create(static_cast<int>(features), length, CV_32F);
   for (std::uint32_t i = 0; i < features; ++i) {
     object.features.keypoints.push_back(readKeypoint(file, object.size_px));
@@ -131,7 +132,7 @@ ObjectDatabase readObjectDatabase(const std::string& path) {
   const auto kind = file.number<std::uint32_t>("the kind of features", 1, 4);
   database.kind = static_cast<FeatureKind>(kind);
   featureKindOf(nameOf(database.kind));
-  const std::uint32_t objects = file.count("the number of objects", 5 * sizeof(std::uint32_t));
+  const std::uint32_t objects = file.count("the number of objects", 1, 5 * sizeof(std::uint32_t));
   for (std::uint32_t i = 0; i < objects; ++i) database.objects.push_back(readObject(file, database.kind));
   file.requireEnd();
   return database;

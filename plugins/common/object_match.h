@@ -28,26 +28,38 @@ class ObjectMatcher {
 
   FeatureKind kind() const { return database_.kind; }
 
-  /// One match for each row of `descriptors`, in their order. Views of one object that show the same place
-  /// (to a twentieth of its size) don't compete with each other.
+  /// The nearest neighbour of each row of `descriptors`, in their order; rows that are equally near to two of
+  /// the database are left out. Views of one object that show the same place (to a twentieth of its size)
+  /// don't compete with each other.
   std::vector<ObjectMatch> match(const cv::Mat& descriptors) const;
 
  private:
   struct Place {
     int object, feature;
   };
+  // What all objects look like from one direction.
+  struct View {
+    std::vector<Place> places;
+    cv::Mat descriptors;
+  };
+  cv::Mat comparable(const cv::Mat& descriptors) const;
   bool isSamePlace(const Place& a, const Place& b) const;
 
   const ObjectDatabase& database_;
-  std::vector<Place> places_;
-  cv::Mat descriptors_;
-  int neighbors_ = 2;
+  std::vector<View> views_;
+};
+
+enum class PlaceModel {
+  kHomography,   ///< as published: a homography, of all matches
+  kAffineFirst,  ///< an affine map, of the matches that turn alike; then the homography near it, if more
+                 ///< agree
 };
 
 struct LocateOptions {
+  PlaceModel model = PlaceModel::kAffineFirst;
   double ratio = 0.8;          ///< matches up to this ratio count
   double reprojection_px = 3;  ///< of matches that agree
-  int min_agreeing = 8;        ///< at least 4
+  int min_agreeing = 6;        ///< at least 4
   double min_area_px = 100;    ///< smallest plausible outline
 };
 
@@ -62,9 +74,9 @@ struct ObjectPlace {
   std::vector<ObjectMatch> agreeing;
 };
 
-/// A homography between picture and image from `matches` of `object` (others are left out), by RANSAC. It
-/// must be plausible: a convex outline that is not mirrored, at least min_area_px large, and around the
-/// agreeing features.
+/// A map between picture and image from `matches` of `object` (others are left out), by RANSAC. It must be
+/// plausible: a convex outline that is not mirrored, at least min_area_px large, and around the agreeing
+/// features.
 ObjectPlace locateObject(const KnownObject& object, int object_number,
                          const std::vector<cv::KeyPoint>& keypoints, std::span<const ObjectMatch> matches,
                          const LocateOptions& options);

@@ -19,14 +19,16 @@ class LogoRange final : public SparseStereoPlugin {
   }
 
   std::vector<PluginParameter> parameters() const override {
-    std::vector<PluginParameter> parameters = KnownObjects::parameters();
+    std::vector<PluginParameter> parameters = KnownObjects::parameters(Thoroughness::kWide);
     const std::vector<PluginParameter> own = {
         switchParameter("upper_half", "Look for signs in the upper half of the left view only", false),
         realParameter("sensitivity", "Divides the contrast that features of the views need", 2, 0.1, 20),
         realParameter("ratio", "Of the distances to the nearest and the next known feature, at most", 0.85, 0,
                       1),
         realParameter("reprojection_px", "How far off a match may be from where the sign has it", 3, 0.1, 50),
-        integerParameter("min_agreeing", "Matches that must agree on the sign's place", 8, 4, 1000),
+        choiceParameter("place_model", "An affine map, then a homography near it; or a homography at once",
+                        {"affine-first", "homography"}),
+        integerParameter("min_agreeing", "Matches that must agree on the sign's place", 6, 4, 1000),
         realParameter("pair_ratio", "Of the distances between the views' features, at most", 0.85, 0, 1),
         realParameter("max_row_offset_px", "Between the views' features", 2, 0, 50),
         choiceParameter("sign_ranging", "By the plane that aligns the views, or by the features' mean",
@@ -49,6 +51,7 @@ class LogoRange final : public SparseStereoPlugin {
     values.insert(values.end(), {{"upper_half", "on"},
                                  {"sensitivity", "1"},
                                  {"ratio", "0.7"},
+                                 {"place_model", "homography"},
                                  {"min_agreeing", "4"},
                                  {"pair_ratio", "0.7"},
                                  {"sign_ranging", "mean"},
@@ -66,6 +69,7 @@ class LogoRange final : public SparseStereoPlugin {
     options.upper_half = settings.isOn("upper_half");
     options.locate.ratio = settings.real("ratio");
     options.locate.reprojection_px = settings.real("reprojection_px");
+    if (settings.text("place_model") == "homography") options.locate.model = PlaceModel::kHomography;
     options.locate.min_agreeing = settings.integer("min_agreeing");
     options.pair_ratio = settings.real("pair_ratio");
     options.max_row_offset_px = settings.real("max_row_offset_px");

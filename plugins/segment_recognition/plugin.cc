@@ -16,7 +16,7 @@ class SegmentRecognition final : public SparseStereoPlugin {
   }
 
   std::vector<PluginParameter> parameters() const override {
-    std::vector<PluginParameter> parameters = KnownObjects::parameters();
+    std::vector<PluginParameter> parameters = KnownObjects::parameters(Thoroughness::kFrontal);
     const std::vector<PluginParameter> own = {
         choiceParameter("filter", "Which features to compare: from near regions, on epipolar lines, or all",
                         {"disparity", "epipolar", "none"}),
@@ -33,7 +33,9 @@ class SegmentRecognition final : public SparseStereoPlugin {
                       1),
         realParameter("reprojection_px", "How far off a match may be from where the object has it", 3, 0.1,
                       50),
-        integerParameter("min_agreeing", "Matches that must agree on the object's place", 8, 4, 1000),
+        choiceParameter("place_model", "An affine map, then a homography near it; or a homography at once",
+                        {"affine-first", "homography"}),
+        integerParameter("min_agreeing", "Matches that must agree on the object's place", 6, 4, 1000),
         choiceParameter("object_ranging", "By the plane that aligns the views, or by the features' mean",
                         {"plane", "mean"})};
     parameters.insert(parameters.end(), own.begin(), own.end());
@@ -45,6 +47,7 @@ class SegmentRecognition final : public SparseStereoPlugin {
     values.insert(values.end(), {{"feature_disparity", "partner"},
                                  {"region_map", "block-matching"},
                                  {"ratio", "0.7"},
+                                 {"place_model", "homography"},
                                  {"min_agreeing", "4"},
                                  {"object_ranging", "mean"}});
     return {
@@ -70,6 +73,7 @@ class SegmentRecognition final : public SparseStereoPlugin {
     options.max_epipolar_px = settings.real("max_epipolar_px");
     options.locate.ratio = settings.real("ratio");
     options.locate.reprojection_px = settings.real("reprojection_px");
+    if (settings.text("place_model") == "homography") options.locate.model = PlaceModel::kHomography;
     options.locate.min_agreeing = settings.integer("min_agreeing");
     options.ranging =
         settings.text("object_ranging") == "mean" ? ObjectRanging::kMean : ObjectRanging::kPlane;
