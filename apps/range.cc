@@ -85,8 +85,13 @@ void printObject(const SparseObject& object) {
   const std::string label = printable(object.label);
   if (!object.found())
     return print("object    %s: not found: %s", label.c_str(), printable(object.why_not).c_str());
-  print("object    %s: %s m, %.2f deg right, support %d", label.c_str(),
-        withSigma(object.distance_m, object.sigma_m).c_str(), object.bearing_deg, object.support);
+  std::string line = "object    " + label + ": ";
+  if (std::isfinite(object.distance_m))
+    line += withSigma(object.distance_m, object.sigma_m) + " m";
+  else
+    line += "found, but not ranged";
+  if (std::isfinite(object.bearing_deg)) line += ", " + withSigma(object.bearing_deg, NAN) + " deg right";
+  print("%s, support %d", line.c_str(), object.support);
 }
 
 void printSummary(const std::string& plugin, const SparseResult& result, double milliseconds) {
