@@ -1,6 +1,8 @@
 #include "plugins/common/known_objects.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <sstream>
 #include <stdexcept>
 
 #include "datasets/atomic_file.h"
@@ -14,6 +16,19 @@ std::vector<std::string> featureNames() {
   for (const FeatureKind kind : featureKinds()) names.emplace_back(nameOf(kind));
   std::swap(names[0], names[1]);  // root-sift, the better one, is the default
   return names;
+}
+
+// Changes with the settings, and with the files that they name.
+std::string keyOf(const PluginSettings& settings) {
+  std::string key = std::to_string(settings.real("picture_sensitivity"));
+  for (const char* name : {"features", "views", "save_objects"}) key += '\n' + settings.text(name);
+  std::istringstream list(settings.text("objects"));
+  for (std::string path; std::getline(list, path, ',');) {
+    std::error_code error;
+    key += '\n' + path + '\n' + std::to_string(std::filesystem::file_size(path, error)) + ' ' +
+           std::to_string(std::filesystem::last_write_time(path, error).time_since_epoch().count());
+  }
+  return key;
 }
 
 }  // namespace
@@ -39,8 +54,7 @@ std::vector<std::pair<std::string, std::string>> KnownObjects::faithful(const st
 
 const ObjectDatabase& KnownObjects::open(const PluginSettings& settings) {
   const std::string& objects = settings.text("objects");
-  std::string key = objects + '\n' + std::to_string(settings.real("picture_sensitivity"));
-  for (const char* name : {"features", "views", "save_objects"}) key += '\n' + settings.text(name);
+  const std::string key = keyOf(settings);
   if (key == opened_) return database_;
   TrainingOptions options;
   options.sensitivity = settings.real("picture_sensitivity");

@@ -16,7 +16,7 @@ enum class Thoroughness {
   kWide,     ///< as if turned by up to 60 degrees, too, and fainter features
 };
 
-/// Opens the objects that settings name, and keeps them for the next run.
+/// Opens the objects that settings name, and keeps them for the next run, until the files change.
 class KnownObjects {
  public:
   /// objects, features, views, picture_sensitivity, save_objects.

@@ -14,19 +14,37 @@ std::string firstLineOf(const cv::Exception& error) {
   return printable(error.err.substr(0, error.err.find('\n')));
 }
 
+// How many bytes of weights the network takes. cv::dnn itself reads past the end of a shorter file without a
+// word.
+std::size_t weightBytesOf(cv::dnn::Net& net) {
+  std::size_t values = 0;
+  for (const cv::String& name : net.getLayerNames()) {
+    const cv::Ptr<cv::dnn::Layer> layer = net.getLayer(net.getLayerId(name));
+    if (layer->type == "Region") continue;  // its numbers are the anchors of the .cfg
+    for (const cv::Mat& blob : layer->blobs) values += blob.total();
+  }
+  return values * sizeof(float);
+}
+
 cv::dnn::Net readDarknet(const std::string& network, std::string weights) {
+  constexpr std::size_t kHeaderBytes = 20;
   if (weights.empty()) weights = std::filesystem::path(network).replace_extension(".weights");
   const std::string shape = readFile(network), numbers = readFile(weights);
-  // cv::dnn reads past the end of short files and takes missing weights for zeros without a word.
-  constexpr std::size_t kHeaderBytes = 16;
-  if (numbers.size() < kHeaderBytes)
-    throw std::runtime_error(weights + ": has " + std::to_string(numbers.size()) +
-                             " bytes, too few for weights");
+  const auto fail_short = [&](std::size_t needed) {
+    throw std::runtime_error(weights + ": has " + std::to_string(numbers.size()) + " bytes; " + network +
+                             " needs " + std::to_string(needed));
+  };
+  if (numbers.size() < kHeaderBytes) fail_short(kHeaderBytes);
+  cv::dnn::Net net;
   try {
-    return cv::dnn::readNetFromDarknet(shape.data(), shape.size(), numbers.data(), numbers.size());
+    net = cv::dnn::readNetFromDarknet(shape.data(), shape.size(), numbers.data(), numbers.size());
   } catch (const cv::Exception& error) {
     throw std::runtime_error(network + ": is no network that fits " + weights + ": " + firstLineOf(error));
   }
+  if (net.empty()) throw std::runtime_error(network + ": holds no network");
+  const std::size_t needed = kHeaderBytes + weightBytesOf(net);
+  if (numbers.size() < needed) fail_short(needed);
+  return net;
 }
 
 cv::dnn::Net readOnnx(const std::string& network) {
