@@ -354,7 +354,8 @@ TEST_F(LogoRangePlugin, FindsAlteredPicturesInRealPairs) {
     const RealPair real = realPair(query, scenes);
     const std::string picture = folder_.file(query.scene + ".png");
     writeFile(picture, encodeImage(pictureOf(query, real.left)));
-    const SparseResult result = run({real.left, real.right}, real.calibration, {"objects=" + picture});
+    const SparseResult result =
+        run({real.left, real.right}, real.calibration, {"objects=" + picture, "sensitivity=2"});
     std::filesystem::remove(picture);
     const SparseObject& object = result.objects.at(0);
     ASSERT_TRUE(object.found()) << query.scene << " " << query.label << ": " << object.why_not;
