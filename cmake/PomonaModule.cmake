@@ -37,6 +37,7 @@ else()
   set(POMONA_KERNEL_FLAGS -O3)
 endif()
 
+# The part of pomona_module() that is for kernels, for targets that are no such folder.
 function(pomona_add_kernels target)
   foreach(isa IN LISTS POMONA_ISAS)
     set(source kernels/target_${isa}.cc)
@@ -49,6 +50,7 @@ function(pomona_add_kernels target)
   endforeach()
 endfunction()
 
+# Tells the sources which instruction sets there are kernels for.
 function(pomona_define_isas target)
   foreach(isa IN LISTS POMONA_ISAS)
     string(TOUPPER ${isa} upper)

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <iomanip>
 
+#include "bench/sparse/comparison.h"
 #include "bench/sparse/pairs.h"
 #include "bench/sparse/tables.h"
 #include "bench/sparse/targets.h"
@@ -78,36 +79,42 @@ void writeErrors(std::ostream& out, const Errors& e) {
 
 }  // namespace
 
-void writeSobelSiftTable(std::ostream& out, const SparseTableOptions&) {
+void writeSobelSiftTable(std::ostream& out, const SparseTableOptions& options) {
   constexpr int kTargetsPerBin = 12;
   PluginHost host;
   LoadedPlugin& plugin = host.plugin("sobel-sift");
-  PluginSettings faithful = plugin.settings(), edges = plugin.settings();
+  PluginSettings faithful = plugin.settings(), gray = plugin.settings();
   faithful.set("variant", "faithful");
-  edges.set("edge_weight", "0.5");
+  gray.set("edge_weight", "0");
+  gray.set("contrast_threshold", "0.02");
   out << "## sobel-sift\n\nMean relative errors of the depths of targets, and of single points (pixels) on "
          "them:\n\n"
          "| distance, m | published | faithful: found | target | point | points | ms | default: found | "
          "target | "
-         "point | points | ms | default with edges: found | target | point | points | ms | dense: found | "
+         "point | points | ms | without edges: found | target | point | points | ms | dense: found | "
          "target | "
          "pixel | pixels | ms |\n|---|"
       << "--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n"
       << std::fixed;
   for (const DistanceBin& bin : distanceBins()) {
-    Errors as_published, improved, with_edges, dense;
+    Errors as_published, improved, without_edges, dense;
     for (const TargetPair& pair : targetPairs(bin, kTargetsPerBin)) {
       measureSparse(plugin, faithful, pair, as_published);
       measureSparse(plugin, plugin.settings(), pair, improved);
-      measureSparse(plugin, edges, pair, with_edges);
+      measureSparse(plugin, gray, pair, without_edges);
       measureDense(pair, dense);
     }
     out << "| " << std::setprecision(1) << bin.nearest_m << " - " << bin.farthest_m << " | "
         << std::setprecision(2) << bin.published_percent << " % | ";
-    for (const Errors* errors : {&as_published, &improved, &with_edges, &dense}) writeErrors(out, *errors);
+    for (const Errors* errors : {&as_published, &improved, &without_edges, &dense}) writeErrors(out, *errors);
     out << '\n';
   }
   out << '\n';
+  if (const std::vector<TruthPair> real = realPairs(options.scenes); !real.empty()) {
+    out << "Real pairs:\n\n";
+    writePointComparison(out, "sobel-sift", real, options.repetitions);
+    out << '\n';
+  }
 }
 
 }  // namespace pomona

@@ -55,8 +55,8 @@ class SparseStereoPlugin {
 /// Raised with every change of what this file declares or includes.
 inline constexpr std::uint32_t kPluginAbiVersion = 1;
 
-/// What a plugin's file hands out, as the C function pomona_plugin_entry(). The first two members keep their
-/// place for ever: they say whether the others can be believed.
+/// What a plugin's file hands out, as the C function pomona_plugin_entry(). The first member keeps its place
+/// for ever: it says whether the others can be believed.
 struct PluginEntry {
   std::uint32_t abi_version;
   const char* built_with;      ///< pluginBuildTag() as it was when the plugin was compiled

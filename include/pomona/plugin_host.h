@@ -51,8 +51,9 @@ class LoadedPlugin {
 };
 
 /// Where plugins are looked for: the folders that the environment variable POMONA_PLUGIN_PATH names
-/// (separated by colons), then, if the program runs in Pomona's build tree, that tree's plugins; else
-/// lib/pomona/plugins of the installation the program is in, and of the one that Pomona was configured for.
+/// (separated by colons), then the first of these that exists: lib/pomona/plugins of the installation the
+/// program is in; plugins/ of the build tree it is in; lib/pomona/plugins of the installation Pomona was
+/// configured for.
 std::vector<std::string> pluginFolders();
 
 /// All plugins of some folders: files whose names end in ".so".
@@ -73,6 +74,8 @@ class PluginHost {
   LoadedPlugin& plugin(std::string_view name);
 
  private:
+  void load(const std::string& path);
+
   std::vector<LoadedPlugin> plugins_;
   std::vector<Refused> refused_;
 };

@@ -66,6 +66,9 @@ class PluginSettings {
   bool isOn(std::string_view name) const;
   const std::string& text(std::string_view name) const;  ///< kText and kChoice
 
+  /// All names and values, in the order of their declaration.
+  std::vector<std::pair<std::string, std::string>> values() const;
+
  private:
   struct Value {
     double number = 0;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "plugins/host/checks.h"
+#include "plugins/host/elf_file.h"
 #include "plugins/host/text.h"
 #include "pomona/engine.h"
 #include "pomona/plugin_host.h"
@@ -20,7 +21,8 @@ namespace {
 using Library = std::unique_ptr<void, int (*)(void*)>;
 using Plugin = std::unique_ptr<SparseStereoPlugin, void (*)(SparseStereoPlugin*)>;
 
-[[noreturn]] void refuse(const std::string& subject, const std::string& reason) {
+[[noreturn]] void refuse(const std::string& subject, std::string reason) {
+  std::replace(reason.begin(), reason.end(), '\n', ' ');
   throw std::runtime_error(subject + ": " + reason);
 }
 
@@ -38,8 +40,7 @@ auto guarded(const std::string& subject, Step&& step) {
 }
 
 Library open(const std::string& path) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) refuse(path, error ? error.message() : "not a file");
+  requireWholeLibrary(path);
   const std::string absolute = std::filesystem::absolute(path).string();  // else dlopen() might search for it
   Library library(dlopen(absolute.c_str(), RTLD_NOW | RTLD_LOCAL), dlclose);
   if (library) return library;

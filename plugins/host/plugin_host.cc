@@ -43,43 +43,44 @@ std::vector<std::string> pluginFolders() {
     rest.erase(0, end + 1);
   }
   std::error_code error;
-  const auto addIfThere = [&](const fs::path& folder) {
-    if (fs::is_directory(folder, error)) folders.push_back(folder.lexically_normal().string());
-  };
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (const fs::path tree = buildTreeOf(program); !tree.empty()) {
-    addIfThere(tree / "plugins");
-  } else {
-    addIfThere(program.parent_path() / POMONA_PLUGINS_FROM_BIN);
-    addIfThere(POMONA_PLUGINS_INSTALLED);
-  }
+  std::vector<fs::path> own{program.parent_path() / POMONA_PLUGINS_FROM_BIN};
+  if (const fs::path tree = buildTreeOf(program); !tree.empty()) own.push_back(tree / "plugins");
+  own.emplace_back(POMONA_PLUGINS_INSTALLED);
+  const auto there =
+      std::find_if(own.begin(), own.end(), [&](const fs::path& p) { return fs::is_directory(p, error); });
+  if (there != own.end()) folders.push_back(there->lexically_normal().string());
   return folders;
 }
 
 PluginHost::PluginHost(const std::vector<std::string>& folders) {
   std::set<fs::path> seen;
-  for (const std::string& folder : folders) try {
+  for (const std::string& folder : folders) {
+    try {
       for (const fs::path& file : filesIn(folder)) {
         std::error_code error;
-        if (!seen.insert(fs::weakly_canonical(file, error)).second) continue;
-        try {
-          LoadedPlugin loaded(file.string());
-          const auto same = [&](const LoadedPlugin& other) { return other.name() == loaded.name(); };
-          const auto first = std::find_if(plugins_.begin(), plugins_.end(), same);
-          if (first == plugins_.end())
-            plugins_.push_back(std::move(loaded));
-          else
-            refused_.push_back(
-                {file.string(), "another plugin is called '" + loaded.name() + "': " + first->path()});
-        } catch (const std::runtime_error& e) {
-          refused_.push_back({file.string(), withoutPath(e.what(), file.string())});
-        }
+        if (seen.insert(fs::weakly_canonical(file, error)).second) load(file.string());
       }
     } catch (const fs::filesystem_error& e) {
       refused_.push_back({folder, e.code().message()});
     }
+  }
   std::sort(plugins_.begin(), plugins_.end(),
             [](const LoadedPlugin& a, const LoadedPlugin& b) { return a.name() < b.name(); });
+}
+
+void PluginHost::load(const std::string& path) {
+  try {
+    LoadedPlugin loaded(path);
+    for (const LoadedPlugin& other : plugins_)
+      if (other.name() == loaded.name()) {
+        refused_.push_back({path, "another plugin is called '" + loaded.name() + "': " + other.path()});
+        return;
+      }
+    plugins_.push_back(std::move(loaded));
+  } catch (const std::runtime_error& e) {
+    refused_.push_back({path, withoutPath(e.what(), path)});
+  }
 }
 
 LoadedPlugin& PluginHost::plugin(std::string_view name) {

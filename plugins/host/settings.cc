@@ -145,6 +145,13 @@ const std::string& PluginSettings::text(std::string_view name) const {
   return value(name, chosen ? ParameterKind::kChoice : ParameterKind::kText).text;
 }
 
+std::vector<std::pair<std::string, std::string>> PluginSettings::values() const {
+  std::vector<std::pair<std::string, std::string>> values;
+  for (const PluginParameter& parameter : parameters_)
+    values.emplace_back(parameter.name, values_.find(parameter.name)->second.text);
+  return values;
+}
+
 const PluginParameter& PluginSettings::declared(std::string_view name) const {
   std::vector<std::string> names;
   for (const PluginParameter& parameter : parameters_) {

@@ -77,9 +77,9 @@ class SobelSift final : public SparseStereoPlugin {
 
   std::vector<PluginParameter> parameters() const override {
     std::vector<PluginParameter> all{
-        realParameter("edge_weight", "Of the edges in the picture that SIFT works on; the rest is gray", 0, 0,
-                      1),
-        realParameter("contrast_threshold", "SIFT's, as OpenCV counts it", 0.02, 0.001, 0.5),
+        realParameter("edge_weight", "Of the edges in the picture that SIFT works on; the rest is gray", 0.2,
+                      0, 1),
+        realParameter("contrast_threshold", "SIFT's, as OpenCV counts it", 0.016, 0.001, 0.5),
         switchParameter("physical_sensor", "Range by the three measures below, not by the calibration",
                         false),
         realParameter("focal_mm", "Focal length", 6, 0.1, 1000),
