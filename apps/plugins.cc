@@ -1,7 +1,6 @@
 // `pomona plugins`: which there are, and what can be set.
 #include <CLI/CLI.hpp>
 #include <iostream>
-#include <sstream>
 #include <string>
 
 #include "apps/verbs.h"
@@ -11,36 +10,12 @@
 namespace pomona {
 namespace {
 
-std::string rangeOf(const PluginParameter& parameter) {
-  std::string words;
-  for (const std::string& choice : parameter.choices) words += (words.empty() ? "" : "|") + choice;
-  std::ostringstream text;
-  switch (parameter.kind) {
-    case ParameterKind::kInteger:
-      text << "whole, " << parameter.min << " to " << parameter.max;
-      break;
-    case ParameterKind::kReal:
-      text << parameter.min << " to " << parameter.max;
-      break;
-    case ParameterKind::kSwitch:
-      text << "on|off";
-      break;
-    case ParameterKind::kChoice:
-      text << words;
-      break;
-    case ParameterKind::kText:
-      text << "text";
-      break;
-  }
-  return text.str();
-}
-
 void printPlugin(const LoadedPlugin& plugin) {
   std::cout << plugin.name() << ": " << printable(plugin.description()) << '\n'
             << "  " << plugin.path() << '\n';
   for (const PluginParameter& parameter : plugin.parameters())
     std::cout << "  " << parameter.name << " = " << printable(parameter.default_value) << "  ("
-              << rangeOf(parameter) << ")  " << printable(parameter.description) << '\n';
+              << allowedValues(parameter) << ")  " << printable(parameter.description) << '\n';
   for (const ParameterSet& set : plugin.parameterSets()) {
     std::cout << "  variant = " << set.name << "  " << printable(set.description) << ":";
     for (const auto& [name, value] : set.values) std::cout << ' ' << name << '=' << printable(value);

@@ -36,6 +36,9 @@ PluginParameter switchParameter(std::string name, std::string description, bool 
 PluginParameter choiceParameter(std::string name, std::string description, std::vector<std::string> choices);
 PluginParameter textParameter(std::string name, std::string description, std::string value = "");
 
+/// For people: "0 to 1", "whole numbers, 0 to 100", "on, off", "fast, slow", "any text".
+std::string allowedValues(const PluginParameter& parameter);
+
 /// Values that belong together, e.g. those of a paper. "variant=NAME" sets them.
 struct ParameterSet {
   std::string name;         ///< "faithful"; "default" is taken: no value changed

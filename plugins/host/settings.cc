@@ -18,22 +18,6 @@ std::string listed(const std::vector<std::string>& words) {
   return text;
 }
 
-std::string allowedValues(const PluginParameter& parameter) {
-  switch (parameter.kind) {
-    case ParameterKind::kInteger:
-      return "whole numbers, " + shortNumber(parameter.min) + " to " + shortNumber(parameter.max);
-    case ParameterKind::kReal:
-      return shortNumber(parameter.min) + " to " + shortNumber(parameter.max);
-    case ParameterKind::kSwitch:
-      return "on, off";
-    case ParameterKind::kChoice:
-      return listed(parameter.choices);
-    case ParameterKind::kText:
-      return "any text";
-  }
-  return "";
-}
-
 /// NaN if `text` is not a number from beginning to end.
 double numberIn(std::string_view text) {
   double value = 0;
@@ -89,6 +73,23 @@ PluginParameter choiceParameter(std::string name, std::string description, std::
 
 PluginParameter textParameter(std::string name, std::string description, std::string value) {
   return {std::move(name), std::move(description), ParameterKind::kText, std::move(value), 0, 0, {}};
+}
+
+std::string allowedValues(const PluginParameter& parameter) {
+  switch (parameter.kind) {
+    case ParameterKind::kInteger:
+      return "whole numbers, " + std::to_string(std::llround(parameter.min)) + " to " +
+             std::to_string(std::llround(parameter.max));
+    case ParameterKind::kReal:
+      return shortNumber(parameter.min) + " to " + shortNumber(parameter.max);
+    case ParameterKind::kSwitch:
+      return "on, off";
+    case ParameterKind::kChoice:
+      return listed(parameter.choices);
+    case ParameterKind::kText:
+      return "any text";
+  }
+  return "";
 }
 
 PluginSettings::PluginSettings(std::string plugin, std::vector<PluginParameter> parameters,
