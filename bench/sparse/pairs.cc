@@ -82,6 +82,12 @@ void PointAccuracy::add(float disparity_px, float true_px) {
   errors_px.push_back(std::isnan(error_px) ? std::numeric_limits<float>::infinity() : error_px);
 }
 
+void PointAccuracy::add(const PointAccuracy& other) {
+  known += other.known;
+  right += other.right;
+  errors_px.insert(errors_px.end(), other.errors_px.begin(), other.errors_px.end());
+}
+
 double PointAccuracy::medianPx() const {
   return medianOf({errors_px.begin(), errors_px.end()});
 }

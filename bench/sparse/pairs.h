@@ -34,6 +34,7 @@ struct PointAccuracy {
   std::vector<float> errors_px;  ///< without sign
 
   void add(float disparity_px, float true_px);
+  void add(const PointAccuracy& other);
   double percentRight() const { return known ? 100.0 * right / known : 0; }
   double medianPx() const;
 };

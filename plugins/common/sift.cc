@@ -21,6 +21,9 @@ ViewFeatures siftFeatures(const cv::Mat& gray, const cv::Mat& mask, const SiftOp
   cv::SIFT::create(options.max_features, kLayers, options.contrast_threshold, kEdgeThreshold, kSigma_px,
                    CV_8U)
       ->detectAndCompute(gray, mask, features.keypoints, features.descriptors);
+  // OpenCV doubles the picture so that pixel x lies at 2 x + 0.5, and halves the places found by that.
+  constexpr float kDoublingShift_px = 0.25f;
+  for (cv::KeyPoint& k : features.keypoints) k.pt -= cv::Point2f(kDoublingShift_px, kDoublingShift_px);
   return features;
 }
 

@@ -9,7 +9,7 @@
 namespace pomona {
 namespace {
 
-constexpr int kWidth = 720, kHeight = 540, kMargin = 40;
+constexpr int kWidth = 720, kMostHeight = 720, kMargin = 40;
 
 struct Range {
   double low, high;
@@ -28,21 +28,22 @@ Range rangeOf(const std::vector<cv::Point3f>& points, const std::function<double
 // A drawing in metres, of one scale in both directions.
 class MetricCanvas {
  public:
-  MetricCanvas(Range x, Range y, const char* x_name, const char* y_name)
-      : x_(x), y_(y), image_(kHeight, kWidth, CV_8UC3, cv::Scalar::all(255)) {
-    px_per_m_ =
-        std::min((kWidth - 2 * kMargin) / (x.high - x.low), (kHeight - 2 * kMargin) / (y.high - y.low));
+  MetricCanvas(Range x, Range y, const char* x_name, const char* y_name) : x_(x), y_(y) {
+    const double width_m = x.high - x.low, height_m = y.high - y.low;
+    px_per_m_ = std::min((kWidth - 2 * kMargin) / width_m, (kMostHeight - 2 * kMargin) / height_m);
+    image_.create(at({x.low, y.low}).y + kMargin, at({x.high, y.low}).x + kMargin, CV_8UC3);
+    image_.setTo(cv::Scalar::all(255));
     const double step_m = gridStepM();
-    for (double m = std::ceil(x.low / step_m) * step_m; m <= x.high; m += step_m) {
-      line({m, y.low}, {m, y.high});
-      label({m, y.low}, m, {-8, 16});
+    for (int i = cvCeil(x.low / step_m); i * step_m <= x.high; ++i) {
+      line({i * step_m, y.low}, {i * step_m, y.high});
+      text(cv::format("%g", i * step_m), at({i * step_m, y.low}) + cv::Point(-8, 16));
     }
-    for (double m = std::ceil(y.low / step_m) * step_m; m <= y.high; m += step_m) {
-      line({x.low, m}, {x.high, m});
-      label({x.low, m}, m, {-34, 4});
+    for (int i = cvCeil(y.low / step_m); i * step_m <= y.high; ++i) {
+      line({x.low, i * step_m}, {x.high, i * step_m});
+      text(cv::format("%g", i * step_m), at({x.low, i * step_m}) + cv::Point(-34, 4));
     }
     text(y_name, {4, 16});
-    text(x_name, {kWidth - 60, kHeight - 8});
+    text(x_name, {image_.cols - 44, image_.rows - 8});
   }
 
   void point(double x_m, double y_m, const cv::Scalar& color) {
@@ -60,13 +61,10 @@ class MetricCanvas {
   }
   cv::Point at(cv::Point2d p_m) const {
     return {cvRound(kMargin + (p_m.x - x_.low) * px_per_m_),
-            cvRound(kHeight - kMargin - (p_m.y - y_.low) * px_per_m_)};
+            cvRound(kMargin + (y_.high - p_m.y) * px_per_m_)};
   }
   void line(cv::Point2d from_m, cv::Point2d to_m) {
     cv::line(image_, at(from_m), at(to_m), cv::Scalar::all(215), 1);
-  }
-  void label(cv::Point2d at_m, double value, cv::Point offset) {
-    text(cv::format("%g", std::round(100 * value) / 100), at(at_m) + offset);
   }
   void text(const std::string& words, cv::Point where) {
     cv::putText(image_, words, where, cv::FONT_HERSHEY_SIMPLEX, 0.4, cv::Scalar::all(70), 1, cv::LINE_AA);
