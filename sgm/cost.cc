@@ -45,6 +45,7 @@ void MatchingCostRows::prepare(Kind kind, const Features& left, int width, int h
   width_ = width;
   height_ = height;
   planes_ = planes;
+  maximum_ = maximum_cost;
   range_ = range;
   kernels_ = &kernels;
   supported_ = has_prior_ = false;
@@ -153,6 +154,7 @@ void MatchingCostRows::makeRamps(int weight, int reach_px) {
 
 void MatchingCostRows::preparePrior(ImageView<const float> map, int weight, int reach_px, int threads) {
   has_prior_ = true;
+  maximum_ += weight * reach_px;
   makeRamps(weight, reach_px);
   prior_.resize(width_, height_);
   parallelStrips(threads, height_, 16, [&](int begin, int end) {
@@ -167,19 +169,27 @@ void MatchingCostRows::preparePrior(ImageView<const float> map, int weight, int 
   });
 }
 
-void MatchingCostRows::row(int y, std::uint8_t* cost) const {
-  const StripedRow right{striped_.data() + y * row_stride_, phase_stride_, plane_stride_};
-  if (kind_ == Kind::kTable) {
-    kernels_->tableCost(
-        {width_, range_.vectors, left_.gray.row(y), right, table_.data(), padding_.data(), cost});
-    return;
-  }
-  CensusCostRow r{width_, range_.vectors, left_.census->planes, {}, right, padding_.data(), cost};
+CensusCostRow MatchingCostRows::censusRow(int y, std::uint8_t* cost) const {
+  CensusCostRow r{.width = width_,
+                  .vectors = range_.vectors,
+                  .planes = left_.census->planes,
+                  .left = {},
+                  .right = stripedRow(y),
+                  .padded = range_.disparities < range_.lanes(),
+                  .padding = padding_.data(),
+                  .cost = cost};
   for (int p = 0; p < r.planes; ++p) r.left[p] = left_.census->plane[p].row(y);
-  if (kind_ == Kind::kBlended)
-    kernels_->blendedCost({r, left_.sobel.row(y), left_.gray.row(y)});
+  return r;
+}
+
+void MatchingCostRows::row(int y, std::uint8_t* cost) const {
+  if (kind_ == Kind::kTable)
+    kernels_->tableCost(
+        {width_, range_.vectors, left_.gray.row(y), stripedRow(y), table_.data(), padding_.data(), cost});
+  else if (kind_ == Kind::kBlended)
+    kernels_->blendedCost({censusRow(y, cost), left_.sobel.row(y), left_.gray.row(y)});
   else
-    kernels_->censusCost(r);
+    kernels_->censusCost(censusRow(y, cost));
 }
 
 void CostRowReader::start(const MatchingCostRows& cost) {

@@ -19,6 +19,7 @@ enum class Isa;  // core/cpu.h; kernels see no standard library
 
 constexpr int kMaxDisparities = 1024;
 constexpr std::uint16_t kNoIndex = 0xFFFF;
+constexpr int kWinnerBlock = 32;  ///< winners are chosen for so many pixels at a time
 constexpr int kMaxCensusPlanes = 8;
 constexpr int kBlendedPlanes = 6;  // of the right view: census, Sobel, gray
 
@@ -34,6 +35,7 @@ struct CensusCostRow {
   int width, vectors, planes;                  ///< planes: bytes per census code, 3, 4, 6 or 8
   const std::uint8_t* left[kMaxCensusPlanes];  ///< one byte per pixel and plane
   StripedRow right;
+  bool padded;                  ///< whether there are padded lanes
   const std::uint8_t* padding;  ///< vectors * kBytes: the maximum cost in padded lanes, 0 elsewhere
   std::uint8_t* cost;           ///< out: width * vectors * kBytes
 };
@@ -83,7 +85,8 @@ struct AggregateRow {
   int width, vectors;
   bool diagonals;            ///< false: only the straight and the horizontal path
   bool wide_sums;            ///< 16-bit partial sums instead of the 8-bit ones
-  const std::uint8_t* cost;  ///< width * vectors * kBytes
+  const std::uint8_t* cost;  ///< width * vectors * kBytes; or null:
+  CensusCostRow census;      ///< the costs are those of three planes, and computed on the way
   std::uint8_t* path[3];     ///< in: costs of the previous row, out: of this one; guard pixels are zero
   std::uint32_t* minima;     ///< 4 quads per pixel (left, straight, right, horizontal); guard pixels are zero
   const std::uint8_t*
@@ -95,8 +98,12 @@ struct AggregateRow {
 
 struct WinnerRow {
   int disparities, min_disparity;
-  const std::uint16_t* position;  ///< wordPosition of every disparity index; the ends repeat at -1 and D
+  const std::uint16_t* position;  ///< wordPosition of every disparity index; the ends repeat, from -1 on to
+                                  ///< index_mask + 1
+  int index_mask;                 ///< winnerIndexMask(disparities)
   const std::uint16_t* labels;    ///< disparity index of every word position, kNoIndex for padding
+  int label_bits;                 ///< labelBits()
+  const std::uint16_t* near;      ///< if label_bits > 0: per index, 0xFFFF at the positions at most one away
   bool padded;                    ///< whether there are padded disparities
   const std::uint16_t* padding;   ///< 0xFFFF at padded word positions, 0 elsewhere
   std::uint16_t* index;        ///< out, per pixel: the disparity index of the lowest sum (the lowest if tied)
@@ -104,13 +111,13 @@ struct WinnerRow {
   std::uint16_t* below;        ///< out: the sum one disparity below (the pixel's own at index 0)
   std::uint16_t* above;        ///< out: the sum one disparity above (the pixel's own at the last index)
   std::uint16_t* second;       ///< out: the lowest sum more than one disparity away; 0xFFFF if there is none
-  std::uint16_t* right_index;  ///< out, per right pixel; must come in as kNoIndex
-  std::uint16_t* right_best;   ///< out: its sum
+  std::uint16_t* right_index;  ///< out, per right pixel, kNoIndex if none; must come in as kNoIndex
+  std::uint16_t* right_best;   ///< out: its sum; must come in as kNoIndex
   std::uint16_t*
       right_below;  ///< out: the sum one disparity below, seen from the same right pixel; 0xFFFF, like
   std::uint16_t* right_above;  ///< right_above, unless both lie in the image and the range
   std::uint16_t* recent;       ///< scratch: the sums of the last recent_mask + 1 pixels
-  int recent_mask;             ///< a power of two less one; at least disparities + 2 pixels
+  int recent_mask;             ///< a power of two less one; at least disparities + 2 + kWinnerBlock pixels
 };
 
 /// Sub-pixel disparities from what winner-take-all left of one row of one view.
@@ -150,6 +157,20 @@ const SgmKernels& sgmKernels(Isa isa);
 
 constexpr int vectorsFor(int disparities, int vector_bytes) {
   return (disparities + vector_bytes - 1) / vector_bytes;
+}
+
+/// A mask that lets every disparity index, and every packed one, through.
+constexpr int winnerIndexMask(int disparities) {
+  int mask = 127;
+  while (mask < disparities - 1) mask = 2 * mask + 1;
+  return mask;
+}
+
+/// How many bits of a word the disparity index may have beside sums of up to `largest_sum`: 6, 7, or 0 if it
+/// needs more than sums leave. The word 0xFFFF stays free.
+constexpr int labelBits(int lanes, int largest_sum) {
+  const int bits = lanes <= 64 ? 6 : lanes <= 128 ? 7 : 16;
+  return largest_sum < 0xFFFF >> bits ? bits : 0;
 }
 
 /// Where the 16-bit sum of disparity index d stands among those of its pixel.
