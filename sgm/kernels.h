@@ -120,6 +120,14 @@ struct WinnerRow {
   int recent_mask;             ///< a power of two less one; at least disparities + 2 + kWinnerBlock pixels
 };
 
+/// How clearly the winners of a row have won.
+struct ScoreRow {
+  int width;
+  const std::uint16_t *best, *below, *above, *second;
+  std::uint16_t* margin;     ///< out: second - best, or 0
+  std::uint16_t* curvature;  ///< out: below + above - 2 best, or 0
+};
+
 /// Sub-pixel disparities from what winner-take-all left of one row of one view.
 struct RefineRow {
   int width, disparities, min_disparity;
@@ -129,6 +137,9 @@ struct RefineRow {
 
 struct SgmKernels {
   int vector_bytes;  ///< kBytes
+  /// gray[x] = (29 B + 150 G + 77 R + 128) / 256.
+  void (*gray8)(const std::uint8_t* bgr, int width, std::uint8_t* gray);
+  void (*gray16)(const std::uint16_t* bgr, int width, std::uint16_t* gray);
   /// Bit k of out[x] = (a[k][x] < b[k][x]), for 8 pairs of rows.
   void (*census8)(const std::uint8_t* const a[8], const std::uint8_t* const b[8], int width,
                   std::uint8_t* out);
@@ -147,6 +158,7 @@ struct SgmKernels {
   void (*prior)(const PriorRow&);
   /// Left to right; leaves the partial sums of its paths.
   void (*aggregateFirst)(const AggregateRow&);
+  void (*score)(const ScoreRow&);
   /// One per SubpixelMethod, in its order.
   void (*refine[4])(const RefineRow&);
   /// Right to left; completes the sums and picks the winners of both views.

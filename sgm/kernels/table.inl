@@ -9,6 +9,8 @@ namespace pomona {
 namespace {
 
 constexpr SgmKernels kTable = {.vector_bytes = simd::kBytes,
+                               .gray8 = grayRow<std::uint8_t>,
+                               .gray16 = grayRow<std::uint16_t>,
                                .census8 = censusRow<std::uint8_t>,
                                .census16 = censusRow<std::uint16_t>,
                                .sobel = sobelRow,
@@ -19,6 +21,7 @@ constexpr SgmKernels kTable = {.vector_bytes = simd::kBytes,
                                .support = support,
                                .prior = prior,
                                .aggregateFirst = aggregateFirst,
+                               .score = scoreRow,
                                .refine = {refineRow<NoOffset>, refineRow<ParabolaOffset>,
                                           refineRow<EquiangularOffset>, refineRow<FittedOffset>},
                                .aggregateLast = aggregateLast};
