@@ -22,21 +22,25 @@ constexpr int kMaxVectors = pomona::kMaxDisparities / simd::kBytes;
 template <int kVectors>
 constexpr int kCapacity = kVectors ? kVectors : kMaxVectors;
 
-/// The recurrence: path costs `previous` with smallest value `minimum` extended to a pixel with matching cost
-/// `cost`. Returns a vector whose smallest lane is the new minimum.
-template <int kVectors>
+/// The recurrence: path costs `previous`, whose smallest value is `minimum`, extended to a pixel with
+/// matching cost `cost`. Returns a vector whose smallest lane is the new minimum. Either the previous costs
+/// lose their minimum first, or what is chosen from them does: the same result, with an operation less or a
+/// shorter way from the minimum on.
+template <int kVectors, bool kMinimumIsLate>
 POMONA_OP U8 extendPath(const U8* previous, U8 minimum, U8 p1, U8 p2, const U8* cost, U8* next, int vectors) {
   const int n = kVectors ? kVectors : vectors;
+  U8 from[kCapacity<kVectors>];
+  for (int j = 0; j < n; ++j) from[j] = kMinimumIsLate ? previous[j] : simd::sub(previous[j], minimum);
   // The 255 shifted in at either end never wins the `min` before P1 is added: the other neighbour is a real
   // one.
-  const U8 below_first = simd::previousLane(previous[n - 1]), above_last = simd::nextLane(previous[0]);
-  const U8 jump = simd::add(minimum, p2);
+  const U8 below_first = simd::previousLane(from[n - 1]), above_last = simd::nextLane(from[0]);
+  const U8 jump = kMinimumIsLate ? simd::add(minimum, p2) : p2;
   U8 smallest = jump;  // until the loop has its first
   for (int j = 0; j < n; ++j) {
-    const U8 below = j > 0 ? previous[j - 1] : below_first, above = j < n - 1 ? previous[j + 1] : above_last;
+    const U8 below = j > 0 ? from[j - 1] : below_first, above = j < n - 1 ? from[j + 1] : above_last;
     const U8 stepped = simd::add(simd::min(below, above), p1);
-    const U8 cheapest = simd::min(simd::min(previous[j], stepped), jump);
-    next[j] = simd::add(cost[j], simd::sub(cheapest, minimum));
+    const U8 cheapest = simd::min(simd::min(from[j], stepped), jump);
+    next[j] = simd::add(cost[j], kMinimumIsLate ? simd::sub(cheapest, minimum) : cheapest);
     smallest = j == 0 ? next[0] : simd::min(smallest, next[j]);
   }
   return smallest;
@@ -79,25 +83,25 @@ POMONA_OP void sweepRow(const AggregateRow& row, Emit&& emit, Done&& done) {
       censusPixel<kVectors, 3>(r.census, static_cast<int>(x), cost);
     else
       loadPixel<kVectors>(r.cost + x * pixel, cost, n);
-    const U8 m3 = extendPath<kVectors>(horizontal, horizontal_minimum, p1,
-                                       simd::broadcastQuad(r.p2 + r.step[3][x]), cost, to_horizontal, n);
+    const U8 m3 = extendPath<kVectors, true>(
+        horizontal, horizontal_minimum, p1, simd::broadcastQuad(r.p2 + r.step[3][x]), cost, to_horizontal, n);
     const U8 straight_minimum = simd::broadcastQuad(minima + 4 * x + 1);
     loadPixel<kVectors>(straight + x * pixel, previous, n);
-    const U8 m1 = extendPath<kVectors>(previous, straight_minimum, p1,
-                                       simd::broadcastQuad(r.p2 + r.step[1][x]), cost, to_straight, n);
+    const U8 m1 = extendPath<kVectors, false>(previous, straight_minimum, p1,
+                                              simd::broadcastQuad(r.p2 + r.step[1][x]), cost, to_straight, n);
     storePixel<kVectors>(straight + x * pixel, to_straight, n);
     U8 m_behind = m1, m_ahead = m1;
     if constexpr (kDiagonals) {
-      m_behind = extendPath<kVectors>(carried, carried_minimum, p1,
-                                      simd::broadcastQuad(r.p2 + r.step[kBehind][x]), cost, to_behind, n);
+      m_behind = extendPath<kVectors, false>(
+          carried, carried_minimum, p1, simd::broadcastQuad(r.p2 + r.step[kBehind][x]), cost, to_behind, n);
       carried_minimum = simd::broadcastQuad(minima + 4 * x + kBehind);
       loadPixel<kVectors>(behind + x * pixel, carried, n);
       storePixel<kVectors>(behind + x * pixel, to_behind, n);
 
       const U8 ahead_minimum = simd::broadcastQuad(minima + 4 * (x + kStep) + kAhead);
       loadPixel<kVectors>(ahead + (x + kStep) * pixel, previous, n);
-      m_ahead = extendPath<kVectors>(previous, ahead_minimum, p1,
-                                     simd::broadcastQuad(r.p2 + r.step[kAhead][x]), cost, to_ahead, n);
+      m_ahead = extendPath<kVectors, false>(previous, ahead_minimum, p1,
+                                            simd::broadcastQuad(r.p2 + r.step[kAhead][x]), cost, to_ahead, n);
       storePixel<kVectors>(ahead + x * pixel, to_ahead, n);
     }
     const simd::Minima all =
