@@ -65,18 +65,23 @@ void MatchingCostRows::prepare(Kind kind, const Features& left, int width, int h
 }
 
 void MatchingCostRows::stripeRow(const std::uint8_t* right, int y, int plane) {
+  constexpr int kBlock = 64;
   std::uint8_t* const to = striped_.data() + y * row_stride_ + plane * plane_stride_;
-  const int n = range_.vectors;
-  for (int phase = 0; phase < n; ++phase) {
-    std::uint8_t* out = to + phase * phase_stride_;
-    // Byte m stands for column c - m * n. Columns right of the image come first, columns left of it last.
-    const int c = width_ - 1 - range_.min_disparity - phase, length = static_cast<int>(phase_stride_);
-    const int first_inside = std::clamp(c <= width_ - 1 ? 0 : (c - width_ + n) / n, 0, length);
-    const int first_beyond = std::clamp(c < 0 ? 0 : c / n + 1, first_inside, length);
-    std::memset(out, right[width_ - 1], first_inside);
-    for (int m = first_inside; m < first_beyond; ++m) out[m] = right[c - m * n];
-    std::memset(out + first_beyond, right[0], length - first_beyond);
-  }
+  const int n = range_.vectors, length = static_cast<int>(phase_stride_);
+  // Byte m of a phase stands for column c - m * n - phase. Columns right of the image come first, columns
+  // left of it last; in between lie blocks whose columns are all inside.
+  const int c = width_ - 1 - range_.min_disparity;
+  const int first = std::clamp((std::max(0, -range_.min_disparity) + n - 1) / n, 0, length);
+  const int blocks = std::max(0, (std::min((c + 1) / n, length) - first) / kBlock),
+            last = first + blocks * kBlock;
+  kernels_->dealRow(right + c - first * n, n, phase_stride_, blocks, to + first);
+  const auto dealClamped = [&](int begin, int end) {
+    for (int phase = 0; phase < n; ++phase)
+      for (int m = begin; m < end; ++m)
+        to[phase * phase_stride_ + m] = right[std::clamp(c - m * n - phase, 0, width_ - 1)];
+  };
+  dealClamped(0, first);
+  dealClamped(last, length);
 }
 
 void MatchingCostRows::stripe(std::span<const ImageView<const std::uint8_t>> right, int threads) {

@@ -151,6 +151,9 @@ struct SgmKernels {
   /// out[x] = largest |a - b| over the channels (1 or 3, interleaved) of pixel x.
   void (*colorSteps)(const std::uint8_t* a, const std::uint8_t* b, int channels, int width,
                      std::uint8_t* out);
+  /// out[phase * phase_stride + m] = right[-(m * phases + phase)] for m < 64 * blocks, phase < phases.
+  void (*dealRow)(const std::uint8_t* right, int phases, std::ptrdiff_t phase_stride, int blocks,
+                  std::uint8_t* out);
   void (*censusCost)(const CensusCostRow&);
   void (*tableCost)(const TableCostRow&);
   void (*blendedCost)(const BlendedCostRow&);

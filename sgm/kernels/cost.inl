@@ -19,6 +19,26 @@ POMONA_OP const std::uint8_t* rightLanes(const StripedRow& right, int width, int
   return right.data + (t % n) * right.phase_stride + t / n;
 }
 
+/// out[phase * phase_stride + m] = right[-(m * phases + phase)] for m < 64 * blocks. GCC vectorises the
+/// loops.
+template <int kPhases>
+void dealRowTo(const std::uint8_t* right, int phases, std::ptrdiff_t phase_stride, int blocks,
+               std::uint8_t* __restrict out) {
+  constexpr int kBlock = 64;
+  const int n = kPhases ? kPhases : phases;
+  for (int b = 0; b < blocks; ++b, right -= n * kBlock, out += kBlock) {
+    std::uint8_t reversed[(kPhases ? kPhases : pomona::kMaxDisparities / simd::kBytes) * kBlock];
+    for (int i = 0; i < n * kBlock; ++i) reversed[i] = right[-i];
+    for (int phase = 0; phase < n; ++phase)
+      for (int m = 0; m < kBlock; ++m) out[phase * phase_stride + m] = reversed[m * n + phase];
+  }
+}
+
+void dealRow(const std::uint8_t* right, int phases, std::ptrdiff_t phase_stride, int blocks,
+             std::uint8_t* out) {
+  withVectors(phases, [&](auto n) { dealRowTo<n()>(right, phases, phase_stride, blocks, out); });
+}
+
 /// Hamming distance of the census codes at vector `right` of the right view, 0 .. 8 * planes.
 template <int kPlanes>
 POMONA_OP simd::U8 hamming(const simd::U8* left, const std::uint8_t* right, std::ptrdiff_t plane_stride) {
