@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "bench/surf/pair_score.h"
 #include "tests/file_support.h"
@@ -68,6 +70,13 @@ TEST(Surf, FindsABlobWhereAndAsLargeAsItIs) {
         EXPECT_LT(cv::norm(cv::Point2d(best.pt) - centre), 0.2) << sigma << " at " << centre;
         EXPECT_NEAR(best.size * 1.2 / 9 / scaleOfBlob(sigma), 1, 0.07) << sigma << " at " << centre;
         EXPECT_EQ(best.class_id, height < 0 ? 1 : -1);
+        EXPECT_EQ(std::count_if(found.keypoints.begin(), found.keypoints.end(),
+                                [&](const cv::KeyPoint& p) {
+                                  return cv::norm(p.pt - best.pt) < sigma &&
+                                         std::abs(p.size / best.size - 1) < 0.2;
+                                }),
+                  1)
+            << sigma << " at " << centre;
       }
 }
 
@@ -187,6 +196,20 @@ TEST(Surf, DescribesWhatItIsGiven) {
   Surf::create()->detectAndCompute(image, cv::noArray(), keypoints, again, true);
   EXPECT_EQ(again.rows, 2);
   EXPECT_TRUE(cv::checkRange(again));
+}
+
+// A filter that does not fit into the image has no value, and none of its neighbours may be a maximum for
+// that.
+TEST(Surf, FindsNothingInAPartThatTheWholeLacks) {
+  const cv::Mat image = texture(300, 300);
+  SurfOptions options;
+  options.octaves = 1;  // sampled at every pixel, wherever the part begins
+  const Found whole = find(image, options), part = find(image(cv::Rect(83, 71, 120, 110)), options);
+  ASSERT_GT(part.keypoints.size(), 10u);
+  for (const cv::KeyPoint& p : part.keypoints)
+    EXPECT_TRUE(std::any_of(whole.keypoints.begin(), whole.keypoints.end(), [&](const cv::KeyPoint& q) {
+      return cv::norm(p.pt + cv::Point2f(83, 71) - q.pt) < 1e-3 && std::abs(p.size - q.size) < 1e-3;
+    })) << p.pt;
 }
 
 TEST(Surf, ReadsColourAndPartsOfImages) {

@@ -1,7 +1,7 @@
 #include "bench/surf/dlib_surf.h"
 
-// The header that brings dlib's configuration in: its matrices are then told to do without BLAS, for which only a
-// runtime library may be installed.
+// The header that brings dlib's configuration in: its matrices are then told to do without BLAS, for which
+// only a runtime library may be installed.
 // clang-format off
 #include <dlib/test_for_odr_violations.h>
 #undef DLIB_USE_BLAS

@@ -24,18 +24,14 @@ bool isSurf(FeatureKind kind) {
   return kind == FeatureKind::kSurf64 || kind == FeatureKind::kSurf128;
 }
 
-cv::Ptr<cv::Feature2D> detectorOf(FeatureKind kind, double sensitivity) {
-  if (!isSurf(kind)) {
-    constexpr int kAllFeatures = 0, kOctaveLayers = 3;
-    constexpr double kContrast = 0.04;  // OpenCV's, which it divides by the number of layers
-    return cv::SIFT::create(kAllFeatures, kOctaveLayers, kContrast / sensitivity);
-  }
+cv::Ptr<cv::Feature2D> surfOf(FeatureKind kind, double sensitivity) {
 #ifdef POMONA_WITH_SURF
   SurfOptions options;
-  options.hessian_threshold /= sensitivity;
+  options.hessian_threshold /= static_cast<float>(sensitivity);
   options.extended = kind == FeatureKind::kSurf128;
   return Surf::create(options);
 #else
+  (void)sensitivity;
   throw std::invalid_argument("features is '" + std::string(nameOf(kind)) + "'; this build is without SURF");
 #endif
 }
@@ -79,7 +75,9 @@ int descriptorLength(FeatureKind kind) {
 }
 
 FeatureFinder::FeatureFinder(FeatureKind kind, double sensitivity)
-    : kind_(kind), detector_(detectorOf(kind, sensitivity)) {}
+    : kind_(kind), sift_{SiftOptions().contrast_threshold / sensitivity, 0} {
+  if (isSurf(kind)) surf_ = surfOf(kind, sensitivity);
+}
 
 Features FeatureFinder::find(const cv::Mat& image, const cv::Mat& mask) const {
   // What a descriptor sees of its surroundings: enough for all but the coarsest features.
@@ -93,18 +91,17 @@ Features FeatureFinder::find(const cv::Mat& image, const cv::Mat& mask) const {
     used += cv::Size(2 * kSurroundings_px, 2 * kSurroundings_px);
     area &= used;
   }
-  detector_->detectAndCompute(grayOf(image(area)), mask.empty() ? cv::Mat() : mask(area).clone(),
-                              found.keypoints, found.descriptors);
+  const cv::Mat gray = grayOf(image(area)), allowed = mask.empty() ? cv::Mat() : mask(area).clone();
+  if (surf_) {
+    surf_->detectAndCompute(gray, allowed, found.keypoints, found.descriptors);
+  } else {
+    const ViewFeatures features = siftFeatures(gray, allowed, sift_);
+    found.keypoints = features.keypoints;
+    features.descriptors.convertTo(found.descriptors, CV_32F);
+  }
   for (cv::KeyPoint& keypoint : found.keypoints) keypoint.pt += cv::Point2f(area.tl());
   normalizeRows(found.descriptors, kind_);
   return found;
-}
-
-cv::Mat grayOf(const cv::Mat& image) {
-  if (image.channels() == 1) return image;
-  cv::Mat gray;
-  cv::cvtColor(image, gray, cv::COLOR_BGR2GRAY);
-  return gray;
 }
 
 }  // namespace pomona

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "plugins/common/sift.h"
+
 namespace pomona {
 
 /// The values are those in database files.
@@ -45,10 +47,8 @@ class FeatureFinder {
 
  private:
   FeatureKind kind_;
-  cv::Ptr<cv::Feature2D> detector_;
+  SiftOptions sift_;
+  cv::Ptr<cv::Feature2D> surf_;  // for its kinds only
 };
-
-/// CV_8U, 1 channel.
-cv::Mat grayOf(const cv::Mat& image);
 
 }  // namespace pomona

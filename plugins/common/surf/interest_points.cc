@@ -11,7 +11,10 @@
 namespace pomona {
 namespace {
 
-constexpr int kStripRows = 64;   // rows of samples per task; two more are computed twice
+constexpr int kStripRows = 64;  // rows of samples per task; two more are computed twice
+// The scales of successive octaves overlap, and a blob may be found in both. It is one if the places are
+// within so many scales and the sizes within this ratio.
+constexpr float kTwinScales = 1, kTwinRatio = 1.5f;
 constexpr double kFurthest = 1;  // of a step
 
 /// Determinants of one octave around one sample: `at[layer][row][k]`.
@@ -116,6 +119,32 @@ class Strip {
   Image<float> rows_;
 };
 
+bool areTwins(const InterestPoint& a, const InterestPoint& b) {
+  const auto [least, most] = std::minmax(a.size_px, b.size_px);
+  return least > 0 && most < kTwinRatio * least && a.is_dark == b.is_dark &&
+         std::hypot(a.x - b.x, a.y - b.y) < kTwinScales * scaleOfSize(least);
+}
+
+/// Of points that two successive octaves found, keeps the one with the stronger response. A size of 0 marks
+/// the other.
+void dropTwins(std::vector<InterestPoint>& fine, std::vector<InterestPoint>& coarse) {
+  const auto is_above = [](const InterestPoint* a, const InterestPoint* b) { return a->y < b->y; };
+  std::vector<InterestPoint*> sorted;
+  for (InterestPoint& point : fine) sorted.push_back(&point);
+  std::sort(sorted.begin(), sorted.end(), is_above);
+  const auto drop = [](InterestPoint& point) { point.size_px = 0; };
+  for (InterestPoint& point : coarse) {
+    const float reach = kTwinScales * scaleOfSize(point.size_px);
+    const InterestPoint top{point.x, point.y - reach, 0, 0, 0, false};
+    for (auto it = std::lower_bound(sorted.begin(), sorted.end(), &top, is_above);
+         it != sorted.end() && (*it)->y <= point.y + reach; ++it)
+      if (areTwins(**it, point)) drop((*it)->response >= point.response ? point : **it);
+  }
+  const auto is_dropped = [](const InterestPoint& point) { return point.size_px == 0; };
+  std::erase_if(fine, is_dropped);
+  std::erase_if(coarse, is_dropped);
+}
+
 }  // namespace
 
 std::vector<InterestPoint> findInterestPoints(const IntegralImage& image, const SurfOptions& options) {
@@ -134,8 +163,15 @@ std::vector<InterestPoint> findInterestPoints(const IntegralImage& image, const 
     Task& task = tasks[i];
     Strip(image, options, task.octave).find(task.begin, task.end, task.count, task.found);
   });
+  std::vector<std::vector<InterestPoint>> by_octave(static_cast<std::size_t>(options.octaves));
+  for (const Task& task : tasks) {
+    auto& points = by_octave[static_cast<std::size_t>(task.octave)];
+    points.insert(points.end(), task.found.begin(), task.found.end());
+  }
+  for (std::size_t octave = 1; octave < by_octave.size(); ++octave)
+    dropTwins(by_octave[octave - 1], by_octave[octave]);
   std::vector<InterestPoint> all;
-  for (const Task& task : tasks) all.insert(all.end(), task.found.begin(), task.found.end());
+  for (const auto& points : by_octave) all.insert(all.end(), points.begin(), points.end());
   return all;
 }
 

@@ -18,8 +18,9 @@ struct InterestPoint {
 
 /// Maxima among their 26 neighbours, moved to the top of the quadratic through these (section 3.3 of the
 /// paper); dropped where that lies further than a step away, as the quadratic then says nothing. (To drop
-/// beyond half a step costs one in thirty of the points that other views show, too.) In order of octave, row,
-/// layer and column, whatever the number of threads.
+/// beyond half a step costs one in thirty of the points that other views show, too.) A blob that two
+/// successive octaves find is kept once. In order of octave, row, layer and column, whatever the number of
+/// threads.
 std::vector<InterestPoint> findInterestPoints(const IntegralImage& image, const SurfOptions& options);
 
 }  // namespace pomona
