@@ -79,9 +79,11 @@ cv::Mat drawCurves(const std::vector<JudgedMatches>& all) {
     for (const PrecisionRecall& point : curveOf(all[i]))
       line.push_back(place(point.false_share, point.recall, most_recall));
     cv::polylines(picture, line, false, color, 2, cv::LINE_AA);
-    const cv::Point legend(kWidth - 330, kHeight - kBottom - 24 - 22 * static_cast<int>(all.size() - 1 - i));
+    const cv::Point legend(kWidth - 370, kHeight - kBottom - 24 - 22 * static_cast<int>(all.size() - 1 - i));
     cv::line(picture, legend, legend + cv::Point(30, 0), color, 3);
-    write(picture, all[i].name, legend + cv::Point(40, 5));
+    std::string name = all[i].name;
+    std::erase(name, '`');  // Markdown's
+    write(picture, name, legend + cv::Point(40, 5));
   }
   return picture;
 }
