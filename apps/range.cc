@@ -1,9 +1,11 @@
 // `pomona range`: sparse points and objects, by a plugin.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <memory>
+#include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -33,27 +35,32 @@ struct RangeArguments {
   int threads = 0;
 };
 
-void checkRangeOutputs(const RangeArguments& arguments) {
+std::string picturePath(const RangeArguments& arguments, const std::string& name) {
+  return arguments.pictures + "-" + name + ".png";
+}
+
+/// Called before any work is done, and again when it is known which pictures there are.
+void checkRangeOutputs(const RangeArguments& arguments, const std::vector<SparsePicture>& pictures) {
   const ComputePaths& paths = arguments.paths;
   const std::string inputs[] = {paths.left, paths.right, paths.mask, paths.calibration, paths.rig};
   std::vector<PlannedOutput> outputs;
   for (const std::string& path : arguments.outputs)
     outputs.push_back({"--output", path, {".csv", ".ply", ".json"}});
   if (!arguments.drawing.empty()) outputs.push_back({"--draw", arguments.drawing, {".png"}});
+  if (!arguments.pictures.empty())
+    for (const SparsePicture& picture : pictures)
+      outputs.push_back({"--pictures", picturePath(arguments, picture.name), {".png"}});
   checkOutputs(outputs, inputs);
-  if (!arguments.pictures.empty()) checkOutputPath(arguments.pictures + "-any.png");
 }
 
-PluginHost hostFor(const std::string& plugin, LoadedPlugin*& found) {
-  PluginHost host;
+LoadedPlugin& chosenPlugin(PluginHost& host, const std::string& name) {
   try {
-    found = &host.plugin(plugin);
+    return host.plugin(name);
   } catch (const std::invalid_argument& e) {
     const std::size_t refused = host.refused().size();
-    const std::string more = std::to_string(refused) + " could not be loaded (see pomona plugins)";
-    throw std::invalid_argument(std::string("--") + e.what() + (refused > 0 ? "; " + more : ""));
+    const std::string more = "; " + std::to_string(refused) + " could not be loaded (see pomona plugins)";
+    throw std::invalid_argument(std::string("--") + e.what() + (refused > 0 ? more : ""));
   }
-  return host;
 }
 
 std::vector<OutputFile> encodeOutputs(const RangeArguments& arguments, const SparseResult& result,
@@ -68,7 +75,7 @@ std::vector<OutputFile> encodeOutputs(const RangeArguments& arguments, const Spa
   if (!arguments.drawing.empty()) files.push_back({arguments.drawing, encodeImage(drawSparse(left, result))});
   if (!arguments.pictures.empty())
     for (const SparsePicture& picture : result.pictures)
-      files.push_back({arguments.pictures + "-" + picture.name + ".png", encodeImage(picture.image)});
+      files.push_back({picturePath(arguments, picture.name), encodeImage(picture.image)});
   return files;
 }
 
@@ -119,10 +126,10 @@ void printSummary(const std::string& plugin, const SparseResult& result, double 
 void range(const RangeArguments& arguments) {
   if (arguments.paths.calibration.empty() && arguments.paths.rig.empty())
     throw CLI::RequiresError("range", "--calib or --rig");
-  checkRangeOutputs(arguments);
-  LoadedPlugin* plugin = nullptr;
-  PluginHost host = hostFor(arguments.plugin, plugin);
-  PluginSettings settings = plugin->settings();
+  checkRangeOutputs(arguments, {{"any", {}}});
+  PluginHost host;
+  LoadedPlugin& plugin = chosenPlugin(host, arguments.plugin);
+  PluginSettings settings = plugin.settings();
   settings.assign(arguments.settings);
   const ComputeInputs inputs = readInputs(arguments.paths);
   cv::Mat left = inputs.left, right = inputs.right;
@@ -139,8 +146,9 @@ void range(const RangeArguments& arguments) {
     return computeDisparity(inputs.left, inputs.right, engine, inputs.mask);
   };
   const auto start = std::chrono::steady_clock::now();
-  const SparseResult result = plugin->run(left, right, *inputs.calibration, settings, options);
+  const SparseResult result = plugin.run(left, right, *inputs.calibration, settings, options);
   const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+  checkRangeOutputs(arguments, result.pictures);
   writeFiles(encodeOutputs(arguments, result, left, settings));
   printSummary(arguments.plugin, result, elapsed.count());
 }

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <locale>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <vector>

@@ -6,6 +6,7 @@ Usage: range_cli_test.py path/to/pomona FOLDER [unittest arguments]; FOLDER has 
 import csv
 import json
 import os
+import shutil
 import struct
 import subprocess
 import sys
@@ -61,6 +62,14 @@ class Range(unittest.TestCase):
 
     def open(self, name, mode="r", **options):
         return open(os.path.join(self.folder, name), mode, **options)
+
+    def test_pictures_spare_the_inputs(self):
+        left, right, _, calibration = self.pair()
+        shutil.copy(left, os.path.join(self.folder, "own-gray.png"))
+        done = self.run_command("range", "own-gray.png", right, "--calib", calibration, "--plugin", "middle", "--pictures",
+                                "own")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("--pictures is 'own-gray.png', which is an input", done.stderr)
 
     def test_list(self):
         done = self.run_command("plugins")
@@ -141,6 +150,7 @@ class Range(unittest.TestCase):
         self.refuse_range("--output is 'out.txt'; allowed extensions: .csv, .ply, .json", "-o", "out.txt")
         self.refuse_range("which is another output already", "-o", "out.csv")
         self.refuse_range("there is no folder", "-o", "no/out.json")
+        self.refuse_range("there is no folder", "--pictures", "no/own")
         self.refuse_range("middle: points is '101'; allowed: whole numbers, 0 to 100", "--set", "points=101")
         self.refuse_range("middle: parameter is 'color'; allowed: fails, sigma_px", "--set", "color=1")
         self.refuse_range("middle: variant is 'x'; allowed: default, faithful", "--set", "variant=x")
