@@ -123,8 +123,7 @@ TEST(RefineDisparity, FindsTheFractionAndRefusesWhatDoesNotFit) {
   cv::normalize(left, left, 20, 235, cv::NORM_MINMAX);
   const float shift_px = 17.4f;
   cv::Mat right, left8, right8;
-  cv::warpAffine(left, right, cv::Matx23d(1, 0, -shift_px, 0, 1, 0), left.size(),
-                 cv::INTER_CUBIC);
+  cv::warpAffine(left, right, cv::Matx23d(1, 0, -shift_px, 0, 1, 0), left.size(), cv::INTER_CUBIC);
   left.convertTo(left8, CV_8U);
   right.convertTo(right8, CV_8U);
   const RefinedDisparity found = refineDisparity(left8, right8, {110.3f, 30.2f}, 17.9f);
