@@ -9,7 +9,6 @@
 #include "bench/sparse/pairs.h"
 #include "bench/sparse/plain_sift.h"
 #include "datasets/rendering/indoor.h"
-#include "datasets/walk.h"
 #include "plugins/common/refine_disparity.h"
 #include "plugins/region_sift/map_pictures.h"
 #include "plugins/region_sift/regions.h"
@@ -233,19 +232,18 @@ TEST(RegionSift, RealPairsGiveRightPoints) {
   const char* const folder = std::getenv("POMONA_DATASETS");
   if (!folder) GTEST_SKIP() << "POMONA_DATASETS names no folder of real pairs";
   constexpr std::size_t kMostPairs = 6;
-  std::vector<SceneFiles> scenes = findScenes({folder});
-  scenes.resize(std::min(scenes.size(), kMostPairs));
+  std::vector<TruthPair> pairs = realPairs(folder);
+  pairs.resize(std::min(pairs.size(), kMostPairs));
   LoadedPlugin plugin = load();
   PluginSettings settings = plugin.settings();
   settings.assign(std::vector<std::string>{"far_region=on", "scale=1", "max_features=0"});
   PointAccuracy all;
   std::size_t plain = 0;
-  for (const SceneFiles& files : scenes)
-    for (const TruthPair& pair : realPairs(files.folder)) {
-      const SparseResult result = plugin.run(pair.left, pair.right, pair.calibration, settings);
-      all.add(accuracyOf(result.points, pair.truth));
-      plain += runPlainSift(pair.left, pair.right, pair.calibration).points.size();
-    }
+  for (const TruthPair& pair : pairs) {
+    const SparseResult result = plugin.run(pair.left, pair.right, pair.calibration, settings);
+    all.add(accuracyOf(result.points, pair.truth));
+    plain += runPlainSift(pair.left, pair.right, pair.calibration).points.size();
+  }
   EXPECT_GT(all.percentRight(), 90);
   EXPECT_GT(all.known, 1.2 * static_cast<double>(plain));
 }
