@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <opencv2/imgproc.hpp>
 
 #include "bench/sparse/pairs.h"
@@ -123,8 +124,7 @@ TEST(RefineDisparity, FindsTheFractionAndRefusesWhatDoesNotFit) {
   cv::normalize(left, left, 20, 235, cv::NORM_MINMAX);
   const float shift_px = 17.4f;
   cv::Mat right, left8, right8;
-  cv::warpAffine(left, right, cv::Matx23d(1, 0, -shift_px, 0, 1, 0), left.size(),
-                 cv::INTER_CUBIC);
+  cv::warpAffine(left, right, cv::Matx23d(1, 0, -shift_px, 0, 1, 0), left.size(), cv::INTER_CUBIC);
   left.convertTo(left8, CV_8U);
   right.convertTo(right8, CV_8U);
   const RefinedDisparity found = refineDisparity(left8, right8, {110.3f, 30.2f}, 17.9f);
@@ -226,6 +226,26 @@ TEST(RegionSift, NothingToFindIsAResult) {
       EXPECT_TRUE(plugin.run(even, even, calibration, settings).points.empty()) << size << variant;
     }
   }
+}
+
+TEST(RegionSift, RealPairsGiveRightPoints) {
+  const char* const folder = std::getenv("POMONA_DATASETS");
+  if (!folder) GTEST_SKIP() << "POMONA_DATASETS names no folder of real pairs";
+  constexpr std::size_t kMostPairs = 6;
+  std::vector<TruthPair> pairs = realPairs(folder);
+  pairs.resize(std::min(pairs.size(), kMostPairs));
+  LoadedPlugin plugin = load();
+  PluginSettings settings = plugin.settings();
+  settings.assign(std::vector<std::string>{"far_region=on", "scale=1", "max_features=0"});
+  PointAccuracy all;
+  std::size_t plain = 0;
+  for (const TruthPair& pair : pairs) {
+    const SparseResult result = plugin.run(pair.left, pair.right, pair.calibration, settings);
+    all.add(accuracyOf(result.points, pair.truth));
+    plain += runPlainSift(pair.left, pair.right, pair.calibration).points.size();
+  }
+  EXPECT_GT(all.percentRight(), 90);
+  EXPECT_GT(all.known, 1.2 * static_cast<double>(plain));
 }
 
 TEST(RegionSift, TheSamePointsForAnyNumberOfThreads) {
