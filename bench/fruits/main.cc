@@ -1,0 +1,105 @@
+// Measures the fruits of rendered orchards with several methods, and tabulates how far off they are.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+#include <sstream>
+#include <stdexcept>
+
+#include "baselines/method.h"
+#include "bench/accuracy/measure.h"
+#include "bench/fruits/tables.h"
+#include "datasets/atomic_file.h"
+#include "datasets/input_file.h"
+#include "datasets/rendering/named_rigs.h"
+
+namespace pomona {
+namespace {
+
+// The bands' orchards have seeds of their own, which do not depend on how many there are.
+constexpr int kSeedsPerBand = 1000;
+
+struct Arguments {
+  int scenes = 30;
+  std::uint64_t first_seed = 1001;
+  std::string rig = "seed-003";
+  std::vector<std::string> methods = {"fast", "balanced", "quality", "paper", "opencv-hh", "ssd", "ncc"};
+  std::string markdown, list;
+};
+
+// "NAME" or "NAME:SCENES".
+FruitMethod parseMethod(const std::string& text, int scenes) {
+  const std::size_t colon = text.find(':');
+  FruitMethod method{text.substr(0, colon), scenes};
+  makeMethod(method.name);  // throws for a name that is not known
+  if (colon != text.npos && (!parseNumber(text.substr(colon + 1), method.scenes) || method.scenes < 1))
+    throw std::invalid_argument("--methods has '" + text + "'; allowed: NAME or NAME:SCENES");
+  return method;
+}
+
+void measureAll(const Arguments& arguments, std::vector<FruitMethod>& methods) {
+  const SceneDescription cameras = sceneFor(namedRig(arguments.rig));
+  for (std::size_t band = 0; band < std::size(kBands); ++band)
+    for (int scene = 0; scene < arguments.scenes; ++scene) {
+      const std::uint64_t seed = arguments.first_seed + kSeedsPerBand * band + scene;
+      const OrchardPicture picture = takePicture(cameras, kBands[band], seed, usualEffects(seed));
+      for (FruitMethod& method : methods) {
+        if (scene >= method.scenes) continue;
+        const std::vector<WaysOfOneFruit> measured =
+            measureFruits(mapOf(method.name, picture.pair), picture, seed);
+        for (std::size_t i = 0; i < measured.size(); ++i)
+          method.fruits[band].push_back(
+              {seed, picture.fruits[i].label, picture.fruits[i].visible_share, measured[i]});
+      }
+      std::fprintf(stderr, "%g - %g m: %d of %d\n", kBands[band].nearest_m, kBands[band].farthest_m,
+                   scene + 1, arguments.scenes);
+    }
+}
+
+std::string headOf(const Arguments& arguments) {
+  const StereoCalibration c = rectificationOf(namedRig(arguments.rig)).calibration;
+  std::ostringstream out;
+  out << "# Distances of fruits\n\nWritten by `pomona_fruits`: " << arguments.scenes
+      << " rendered orchards for each depth of the fruits, seeds from " << arguments.first_seed << " on, "
+      << kSeedsPerBand << " more for each farther band; rig `" << arguments.rig << "` (" << c.width << "x"
+      << c.height << ", f " << c.focal_px << " px, B " << c.baseline_m * 1000
+      << " mm), with noise, blur and a right view that is 3 % brighter. Fruits of which at least "
+      << kLeastVisible * 100 << " % are visible; errors without sign.\n\n";
+  return out.str();
+}
+
+int run(const Arguments& arguments) {
+  std::vector<OutputFile> outputs = plannedOutputs({arguments.markdown, arguments.list});
+  std::vector<FruitMethod> methods;
+  for (const std::string& text : arguments.methods) methods.push_back(parseMethod(text, arguments.scenes));
+  measureAll(arguments, methods);
+  const std::string tables = headOf(arguments) + fruitTables(methods);
+  std::cout << tables;
+  for (OutputFile& output : outputs)
+    output.bytes = output.path == arguments.list ? fruitList(methods) : tables;
+  writeFiles(outputs);
+  return 0;
+}
+
+}  // namespace
+}  // namespace pomona
+
+int main(int argc, char** argv) {
+  pomona::Arguments arguments;
+  CLI::App app("How far off the fruits of rendered orchards are measured");
+  app.add_option("--scenes", arguments.scenes, "orchards for each of the three bands of depth (default 30)")
+      ->check(CLI::Range(1, pomona::kSeedsPerBand));
+  app.add_option("--first-seed", arguments.first_seed, "seed of the first; the others follow (default 1001)");
+  app.add_option("--rig", arguments.rig, "seed-003 (default: 120 mm) or another of pomona render's");
+  app.add_option("--methods", arguments.methods,
+                 "methods of pomona eval, separated by commas; NAME:SCENES runs one on fewer orchards")
+      ->delimiter(',');
+  app.add_option("--markdown", arguments.markdown, "write the tables to this file");
+  app.add_option("--list", arguments.list, "write all measurements to this file, as CSV");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return pomona::run(arguments);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "pomona_fruits: error: %s\n", error.what());
+    return 1;
+  }
+}
