@@ -36,29 +36,27 @@ FruitMethod parseMethod(const std::string& text, int scenes) {
   return method;
 }
 
-void measureAll(const Arguments& arguments, std::vector<FruitMethod>& methods) {
-  const SceneDescription cameras = sceneFor(namedRig(arguments.rig));
-  for (std::size_t band = 0; band < std::size(kBands); ++band)
-    for (int scene = 0; scene < arguments.scenes; ++scene) {
-      const std::uint64_t seed = arguments.first_seed + kSeedsPerBand * band + scene;
-      const OrchardPicture picture = takePicture(cameras, kBands[band], seed, usualEffects(seed));
-      for (FruitMethod& method : methods) {
-        if (scene >= method.scenes) continue;
-        const std::vector<WaysOfOneFruit> measured =
-            measureFruits(mapOf(method.name, picture.pair), picture, seed);
-        for (std::size_t i = 0; i < measured.size(); ++i)
-          method.fruits[band].push_back(
-              {seed, picture.fruits[i].label, picture.fruits[i].visible_share, measured[i]});
-      }
-      std::fprintf(stderr, "%g - %g m: %d of %d\n", kBands[band].nearest_m, kBands[band].farthest_m,
-                   scene + 1, arguments.scenes);
+// The bands' orchards of one number, by all methods.
+void measureScene(const SceneDescription& cameras, std::uint64_t first_seed, int scene,
+                  std::vector<FruitMethod>& methods) {
+  for (std::size_t band = 0; band < std::size(kBands); ++band) {
+    const std::uint64_t seed = first_seed + kSeedsPerBand * band + scene;
+    const OrchardPicture picture = takePicture(cameras, kBands[band], seed, usualEffects(seed));
+    for (FruitMethod& method : methods) {
+      if (scene >= method.scenes) continue;
+      const std::vector<WaysOfOneFruit> measured =
+          measureFruits(mapOf(method.name, picture.pair), picture, seed);
+      for (std::size_t i = 0; i < measured.size(); ++i)
+        method.fruits[band].push_back(
+            {seed, picture.fruits[i].label, picture.fruits[i].visible_share, measured[i]});
     }
+  }
 }
 
-std::string headOf(const Arguments& arguments) {
+std::string headOf(const Arguments& arguments, int scenes) {
   const StereoCalibration c = rectificationOf(namedRig(arguments.rig)).calibration;
   std::ostringstream out;
-  out << "# Distances of fruits\n\nWritten by `pomona_fruits`: " << arguments.scenes
+  out << "# Distances of fruits\n\nWritten by `pomona_fruits`: " << scenes
       << " rendered orchards for each depth of the fruits, seeds from " << arguments.first_seed << " on, "
       << kSeedsPerBand << " more for each farther band; rig `" << arguments.rig << "` (" << c.width << "x"
       << c.height << ", f " << c.focal_px << " px, B " << c.baseline_m * 1000
@@ -71,12 +69,17 @@ int run(const Arguments& arguments) {
   std::vector<OutputFile> outputs = plannedOutputs({arguments.markdown, arguments.list});
   std::vector<FruitMethod> methods;
   for (const std::string& text : arguments.methods) methods.push_back(parseMethod(text, arguments.scenes));
-  measureAll(arguments, methods);
-  const std::string tables = headOf(arguments) + fruitTables(methods);
+  const SceneDescription cameras = sceneFor(namedRig(arguments.rig));
+  std::string tables;
+  for (int scene = 0; scene < arguments.scenes; ++scene) {
+    measureScene(cameras, arguments.first_seed, scene, methods);
+    tables = headOf(arguments, scene + 1) + fruitTables(methods);
+    for (OutputFile& output : outputs)
+      output.bytes = output.path == arguments.list ? fruitList(methods) : tables;
+    writeFiles(outputs);  // so far: this takes long
+    std::fprintf(stderr, "%d of %d\n", scene + 1, arguments.scenes);
+  }
   std::cout << tables;
-  for (OutputFile& output : outputs)
-    output.bytes = output.path == arguments.list ? fruitList(methods) : tables;
-  writeFiles(outputs);
   return 0;
 }
 
