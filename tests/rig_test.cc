@@ -414,14 +414,48 @@ TEST_F(RigFile, RefusesNonsenseNamingFileAndField) {
   expectContains(messageOf([&] { readRig(put("big.yml", std::string(2 << 20, ' '))); }), "too large");
 }
 
+TEST_F(RigFile, RosRefusesNonsenseNamingFileAndField) {
+  writeRig(folder_ / "ros", rigOf({490, 318, 238, 0.12, 0, 640, 480, 0}), RigFormat::kRos);
+  const std::string good = bytesOf(folder_ / "ros/right.yaml");
+  const struct {
+    std::string text, part;
+  } cases[] = {
+      {"", "expected 'key: value'"},
+      {replaced(good, "image_width", "breadth"), "'image_width' is missing"},
+      {replaced(good, "projection_matrix", "P_matrix"), "'projection_matrix' is missing"},
+      {replaced(good, "rectification_matrix", "r_matrix"), "'rectification_matrix' is missing"},
+      {replaced(good, "[490, 0, 318, 0, 490,", "[-490, 0, 318, 0, -490,"), "camera_matrix is"},
+      {replaced(good, "[490, 0, 318, 0, 490,", "[.nan, 0, 318, 0, 490,"), "camera_matrix.data holds '.nan'"},
+      {replaced(good, "[490, 0, 318, 0, 490,", "[490, 0, 318, 0,"), "camera_matrix.data holds 8 numbers"},
+      {replaced(good, "[490, 0, 318, -58.8,", "[490, 0, 318, 1e999,"),
+       "projection_matrix.data holds '1e999'"},
+      {replaced(good, "[490, 0, 318, -58.8,", "[480, 0, 318, -58.8,"), "projection_matrix is"},
+      {replaced(good, "[490, 0, 318, -58.8,", "[490, 0, 318, -58800,"), "baseline is 120 m"},
+      {replaced(good, "plumb_bob", "fov"), "distortion_model is 'fov'"},
+      {replaced(good, "image_height: 480", "image_height: -480"), "image_height is '-480'"},
+      {replaced(good, "image_height: 480", "image_height: 240"), "right size is 640x240"},
+  };
+  for (const auto& c : cases) {
+    SCOPED_TRACE(c.part);
+    put("right.yaml", c.text);
+    const std::string message =
+        messageOf([&] { readRigPair(folder_ / "ros/left.yaml", folder_ / "right.yaml"); });
+    expectContains(message, c.part);
+    expectContains(message, "right.yaml");
+    EXPECT_EQ(message.find('\n'), message.npos) << message;
+  }
+}
+
 // Whatever is cut off or altered: an error or a valid rig, never anything else.
 TEST_F(RigFile, DamageIsNoticedOrHarmless) {
   StereoRig rig = someRig();
   rig.rectification = rectificationOf(rig);
   writeRig(folder_ / "good.yml", rig);
   const std::string own = bytesOf(folder_ / "good.yml");
-  for (const std::string& good : {own, kKalibr, kKittiRectified}) {
-    const std::string leaf = &good == &kKittiRectified ? "x.txt" : "x.yaml";
+  writeRig(folder_ / "calib.txt", rig, RigFormat::kMiddlebury);
+  const std::string middlebury = bytesOf(folder_ / "calib.txt");
+  for (const std::string& good : {own, kKalibr, kKittiRectified, middlebury}) {
+    const std::string leaf = good == own || good == kKalibr ? "x.yaml" : "x.txt";
     for (std::size_t i = 0; i < good.size(); i += 23)
       for (const char* damage : {"cut", "-", "9", "\n", "["}) {
         std::string text = good;
