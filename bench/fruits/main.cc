@@ -2,6 +2,8 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <iostream>
+#include <set>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 
@@ -23,6 +25,7 @@ struct Arguments {
   std::uint64_t first_seed = 1001;
   std::string rig = "seed-003";
   std::vector<std::string> methods = {"fast", "balanced", "quality", "paper", "opencv-hh", "ssd", "ncc"};
+  std::vector<std::string> earlier;
   std::string markdown, list;
 };
 
@@ -53,13 +56,18 @@ void measureScene(const SceneDescription& cameras, std::uint64_t first_seed, int
   }
 }
 
-std::string headOf(const Arguments& arguments, int scenes) {
-  const StereoCalibration c = rectificationOf(namedRig(arguments.rig)).calibration;
+std::string headOf(const std::string& rig, std::span<const FruitMethod> methods) {
+  std::set<std::uint64_t> seeds;
+  for (const FruitMethod& method : methods)
+    for (const auto& band : method.fruits)
+      for (const FruitMethod::Fruit& fruit : band) seeds.insert(fruit.seed);
+  if (seeds.empty())
+    throw std::runtime_error("there is nothing to report: --scenes is 0 and --add has no fruit");
+  const StereoCalibration c = rectificationOf(namedRig(rig)).calibration;
   std::ostringstream out;
-  out << "# Distances of fruits\n\nWritten by `pomona_fruits`: " << scenes
-      << " rendered orchards for each depth of the fruits, seeds from " << arguments.first_seed << " on, "
-      << kSeedsPerBand << " more for each farther band; rig `" << arguments.rig << "` (" << c.width << "x"
-      << c.height << ", f " << c.focal_px << " px, B " << c.baseline_m * 1000
+  out << "# Distances of fruits\n\nWritten by `pomona_fruits`: " << seeds.size()
+      << " rendered orchards, seeds " << *seeds.begin() << " to " << *seeds.rbegin() << ", rig `" << rig
+      << "` (" << c.width << "x" << c.height << ", f " << c.focal_px << " px, B " << c.baseline_m * 1000
       << " mm), with noise, blur and a right view that is 3 % brighter. Fruits of which at least "
       << kLeastVisible * 100 << " % are visible; errors without sign.\n\n";
   return out.str();
@@ -69,17 +77,21 @@ int run(const Arguments& arguments) {
   std::vector<OutputFile> outputs = plannedOutputs({arguments.markdown, arguments.list});
   std::vector<FruitMethod> methods;
   for (const std::string& text : arguments.methods) methods.push_back(parseMethod(text, arguments.scenes));
+  for (const std::string& path : arguments.earlier) addFruitList(path, arguments.rig, methods);
+  const auto write = [&] {
+    for (OutputFile& output : outputs)
+      output.bytes = output.path == arguments.list ? fruitList(arguments.rig, methods)
+                                                   : headOf(arguments.rig, methods) + fruitTables(methods);
+    writeFiles(outputs);
+  };
   const SceneDescription cameras = sceneFor(namedRig(arguments.rig));
-  std::string tables;
   for (int scene = 0; scene < arguments.scenes; ++scene) {
     measureScene(cameras, arguments.first_seed, scene, methods);
-    tables = headOf(arguments, scene + 1) + fruitTables(methods);
-    for (OutputFile& output : outputs)
-      output.bytes = output.path == arguments.list ? fruitList(methods) : tables;
-    writeFiles(outputs);  // so far: this takes long
+    write();  // so far: this takes long
     std::fprintf(stderr, "%d of %d\n", scene + 1, arguments.scenes);
   }
-  std::cout << tables;
+  std::cout << headOf(arguments.rig, methods) << fruitTables(methods);
+  write();
   return 0;
 }
 
@@ -89,13 +101,15 @@ int run(const Arguments& arguments) {
 int main(int argc, char** argv) {
   pomona::Arguments arguments;
   CLI::App app("How far off the fruits of rendered orchards are measured");
-  app.add_option("--scenes", arguments.scenes, "orchards for each of the three bands of depth (default 30)")
-      ->check(CLI::Range(1, pomona::kSeedsPerBand));
+  app.add_option("--scenes", arguments.scenes,
+                 "orchards for each of the three bands of depth (default 30; 0 with --add)")
+      ->check(CLI::Range(0, pomona::kSeedsPerBand));
   app.add_option("--first-seed", arguments.first_seed, "seed of the first; the others follow (default 1001)");
   app.add_option("--rig", arguments.rig, "seed-003 (default: 120 mm) or another of pomona render's");
   app.add_option("--methods", arguments.methods,
                  "methods of pomona eval, separated by commas; NAME:SCENES runs one on fewer orchards")
       ->delimiter(',');
+  app.add_option("--add", arguments.earlier, "count the measurements of this earlier --list, too");
   app.add_option("--markdown", arguments.markdown, "write the tables to this file");
   app.add_option("--list", arguments.list, "write all measurements to this file, as CSV");
   CLI11_PARSE(app, argc, argv);

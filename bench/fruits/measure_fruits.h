@@ -21,8 +21,7 @@ enum Way : int {
   kMedian,
   kWays
 };
-inline constexpr const char* kWayNames[kWays] = {"mask", "visible box", "detector's box", "mask, centre",
-                                                 "median"};
+inline constexpr const char* kWayNames[kWays] = {"mask", "visible box", "detector's box", "centre", "median"};
 
 using WaysOfOneFruit = std::array<MeasuredDistance, kWays>;
 

@@ -49,12 +49,6 @@ void addMethods(std::ostream& out, std::span<const FruitMethod> methods, Way way
 
 }  // namespace
 
-DistanceErrors FruitMethod::errors(std::size_t band, Way way) const {
-  std::vector<MeasuredDistance> distances;
-  for (const Fruit& fruit : fruits[band]) distances.push_back(fruit.ways[way]);
-  return errorsOf(distances);
-}
-
 std::string fruitTables(std::span<const FruitMethod> methods) {
   std::ostringstream out;
   out << "## Spheres\n\n`measureObject()` with a mask of what is visible; the near side.\n\n";
@@ -69,22 +63,6 @@ std::string fruitTables(std::span<const FruitMethod> methods) {
     for (const Way way : {kVisible, kBox, kCenter})
       for (std::size_t band = 0; knowsSigma(method.name) && band < kBandCount; ++band)
         addErrors(out, {method.name, kWayNames[way], nameOf(kBands[band])}, method.errors(band, way));
-  return out.str();
-}
-
-std::string fruitList(std::span<const FruitMethod> methods) {
-  std::ostringstream out;
-  out << "method,nearest_m,farthest_m,seed,fruit,visible_share,way,true_m,measured_m,sigma_m\n"
-      << std::setprecision(8);
-  for (const FruitMethod& method : methods)
-    for (std::size_t band = 0; band < kBandCount; ++band)
-      for (const FruitMethod::Fruit& fruit : method.fruits[band])
-        for (int way = 0; way < kWays; ++way) {
-          const MeasuredDistance& d = fruit.ways[way];
-          out << method.name << ',' << kBands[band].nearest_m << ',' << kBands[band].farthest_m << ','
-              << fruit.seed << ',' << fruit.label << ',' << fruit.visible_share << ",\"" << kWayNames[way]
-              << "\"," << d.true_m << ',' << d.measured_m << ',' << d.sigma_m << '\n';
-        }
   return out.str();
 }
 
