@@ -18,6 +18,7 @@ TEST(DistanceErrors, AreThoseOfTheMeasuredOnes) {
   EXPECT_EQ(e.measured, 3);
   EXPECT_NEAR(e.mean_mm, (1 + 2 + 5) / 3.0, 1e-9);
   EXPECT_NEAR(e.rms_mm, std::sqrt((1 + 4 + 25) / 3.0), 1e-9);
+  EXPECT_NEAR(e.median_mm, 2, 1e-9);
   EXPECT_NEAR(e.mean_percent, (0.1 + 0.1 + 1) / 3, 1e-9);
   EXPECT_NEAR(e.median_percent, 0.1, 1e-9);
   EXPECT_NEAR(e.p95_percent, 1, 1e-9);
@@ -74,13 +75,15 @@ TEST(MeasureFruits, HolesAreNotMeasured) {
 }
 
 TEST(MapOf, ComesWithSigmaFromThePresets) {
-  const OrchardPicture picture = smallPicture(2);
+  const RenderedPair pair = smallPicture(2).pair;
+  const auto map = [&](const char* method) {
+    return mapOf(method, pair.left.image, pair.right.image, pair.calibration.num_disparities);
+  };
   for (const char* method : {"balanced", "paper", "ssd"}) {
-    const StereoResult map = mapOf(method, picture.pair);
-    EXPECT_EQ(map.disparity.size(), picture.labels.size()) << method;
-    EXPECT_EQ(map.sigma_px.empty(), !knowsSigma(method)) << method;
+    EXPECT_EQ(map(method).disparity.size(), pair.left.image.size()) << method;
+    EXPECT_EQ(map(method).sigma_px.empty(), !knowsSigma(method)) << method;
   }
-  EXPECT_THROW(mapOf("magic", picture.pair), std::invalid_argument);
+  EXPECT_THROW(map("magic"), std::invalid_argument);
 }
 
 std::vector<FruitMethod> someMethods() {

@@ -18,7 +18,7 @@ struct MeasuredDistance {
 /// Errors of the measured ones; NaN where none was. Percent are of the true distance.
 struct DistanceErrors {
   int all = 0, measured = 0;
-  double mean_mm = kNoDistance, rms_mm = kNoDistance;
+  double mean_mm = kNoDistance, rms_mm = kNoDistance, median_mm = kNoDistance;
   double mean_percent = kNoDistance, median_percent = kNoDistance, p95_percent = kNoDistance;
   double within_2_sigma_percent = kNoDistance;  ///< of those that claim a standard deviation
 };

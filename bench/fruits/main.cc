@@ -47,8 +47,9 @@ void measureScene(const SceneDescription& cameras, std::uint64_t first_seed, int
     const OrchardPicture picture = takePicture(cameras, kBands[band], seed, usualEffects(seed));
     for (FruitMethod& method : methods) {
       if (scene >= method.scenes) continue;
-      const std::vector<WaysOfOneFruit> measured =
-          measureFruits(mapOf(method.name, picture.pair), picture, seed);
+      const StereoResult map = mapOf(method.name, picture.pair.left.image, picture.pair.right.image,
+                                     picture.pair.calibration.num_disparities);
+      const std::vector<WaysOfOneFruit> measured = measureFruits(map, picture, seed);
       for (std::size_t i = 0; i < measured.size(); ++i)
         method.fruits[band].push_back(
             {seed, picture.fruits[i].label, picture.fruits[i].visible_share, measured[i]});

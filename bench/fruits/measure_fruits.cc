@@ -64,16 +64,16 @@ bool knowsSigma(const std::string& method) {
   return method == "fast" || method == "balanced" || method == "quality";
 }
 
-StereoResult mapOf(const std::string& method, const RenderedPair& pair) {
-  const int num_disparities = pair.calibration.num_disparities;
+StereoResult mapOf(const std::string& method, const cv::Mat& left, const cv::Mat& right,
+                   int num_disparities) {
   if (knowsSigma(method)) {
     Options options = Options::preset(method);
     options.num_disparities = num_disparities;
-    return computeDisparity(pair.left.image, pair.right.image, options);
+    return computeDisparity(left, right, options);
   }
   MethodOptions options;
   options.num_disparities = num_disparities;
-  const MethodResult found = makeMethod(method)->run(pair.left.image, pair.right.image, options);
+  const MethodResult found = makeMethod(method)->run(left, right, options);
   StereoResult result;
   result.disparity = found.disparity;
   result.state = found.state;

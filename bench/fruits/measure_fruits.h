@@ -32,7 +32,7 @@ std::vector<WaysOfOneFruit> measureFruits(const StereoResult& result, const Orch
 /// The map of a method of the registry. Pomona's presets but `paper` come with their confidence and sigma,
 /// all others with disparities and states alone: their pixels count as equally sure, filled ones for a
 /// quarter. Throws std::invalid_argument for an unknown method.
-StereoResult mapOf(const std::string& method, const RenderedPair& pair);
+StereoResult mapOf(const std::string& method, const cv::Mat& left, const cv::Mat& right, int num_disparities);
 /// Whether mapOf() comes with sigma.
 bool knowsSigma(const std::string& method);
 
