@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/parallel.h"
+#include "sgm/kernels.h"
 
 namespace pomona {
 namespace {
@@ -33,12 +34,13 @@ ImageView<const T> viewOf(const cv::Mat& m) {
 }
 
 template <typename T>
-ImageView<const T> grayOf(const cv::Mat& image, Image<T>& buffer, int threads) {
+ImageView<const T> grayOf(const cv::Mat& image, Image<T>& buffer, void (*to_gray)(const T*, int, T*),
+                          int threads) {
   const ImageView<const T> in = viewOf<T>(image);
   if (image.channels() == 1) return in;
   buffer.resize(image.cols, image.rows);
   parallelStrips(threads, image.rows, 32, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) grayFromBgr(in.row(y), image.cols, buffer.row(y));
+    for (int y = begin; y < end; ++y) to_gray(in.row(y), image.cols, buffer.row(y));
   });
   return buffer.view();
 }
@@ -79,15 +81,7 @@ ImageView<const std::uint8_t> shiftedDown(ImageView<const std::uint16_t> in, int
 
 }  // namespace
 
-template <typename T>
-void grayFromBgr(const T* bgr, int width, T* gray) {
-  for (int x = 0; x < width; ++x, bgr += 3)
-    gray[x] = static_cast<T>((29u * bgr[0] + 150u * bgr[1] + 77u * bgr[2] + 128u) >> 8);
-}
-template void grayFromBgr(const std::uint8_t*, int, std::uint8_t*);
-template void grayFromBgr(const std::uint16_t*, int, std::uint16_t*);
-
-void InputPair::set(const cv::Mat& left, const cv::Mat& right, int threads) {
+void InputPair::set(const cv::Mat& left, const cv::Mat& right, int threads, Isa isa) {
   requireImage("left", left);
   requireImage("right", right);
   if (left.size() != right.size())
@@ -97,18 +91,19 @@ void InputPair::set(const cv::Mat& left, const cv::Mat& right, int threads) {
     throw std::invalid_argument("right is of type " + cv::typeToString(right.type()) + " but left is " +
                                 cv::typeToString(left.type()) + "; both views must have the same type");
 
+  const SgmKernels& kernels = sgmKernels(isa);
   const cv::Mat* images[2] = {&left, &right};
   ImageView<const std::uint8_t> gray8[2];
   ImageView<const std::uint16_t> gray16[2];
   GuideView guide;
   if (left.depth() == CV_8U) {
-    for (int i = 0; i < 2; ++i) gray8[i] = grayOf(*images[i], buffers_[i].gray8, threads);
+    for (int i = 0; i < 2; ++i) gray8[i] = grayOf(*images[i], buffers_[i].gray8, kernels.gray8, threads);
     const ImageView<const std::uint8_t> v = viewOf<std::uint8_t>(left);
     guide = {v.data, left.cols, left.rows, left.channels(), v.stride};
   } else {
     const int shift = eightBitShift({viewOf<std::uint16_t>(left), viewOf<std::uint16_t>(right)});
     for (int i = 0; i < 2; ++i) {
-      gray16[i] = grayOf(*images[i], buffers_[i].gray16, threads);
+      gray16[i] = grayOf(*images[i], buffers_[i].gray16, kernels.gray16, threads);
       gray8[i] = shiftedDown(gray16[i], shift, buffers_[i].gray8, threads);
     }
     const ImageView<const std::uint8_t> v =

@@ -4,18 +4,19 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 
+#include "core/cpu.h"
 #include "core/image.h"
 #include "pomona/options.h"
 #include "sgm/matcher.h"
 
 namespace pomona {
 
-/// A pair in working form. Views point into the caller's images where these already have the right form,
-/// otherwise into buffers that are reused from frame to frame.
+/// A pair in working form: gray is (29 B + 150 G + 77 R) / 256. Views point into the caller's images where
+/// these already have the right form, otherwise into buffers that are reused from frame to frame.
 class InputPair {
  public:
   /// Throws std::invalid_argument naming the argument, what it is and what is allowed.
-  void set(const cv::Mat& left, const cv::Mat& right, int threads);
+  void set(const cv::Mat& left, const cv::Mat& right, int threads, Isa isa = chooseIsa({}));
 
   int width() const { return views_.left.width; }
   int height() const { return views_.left.height; }
@@ -31,10 +32,6 @@ class InputPair {
   Buffers buffers_[2];
   Image<std::uint8_t> guide8_;
 };
-
-/// Gray from 8- or 16-bit BGR: (29 B + 150 G + 77 R + 128) / 256.
-template <typename T>
-void grayFromBgr(const T* bgr, int width, T* gray);
 
 /// Throws if the searched range does not suit the image: at least one disparity must map into it, and there
 /// may not be more disparities than columns.

@@ -66,10 +66,10 @@ void Trust::estimate(const MatchMaps& maps, int largest_cost_sum, const FilterKe
   confidence.resize(width, height);
   sigma_px.resize(width, height);
   parallelStrips(threads, height, 32, [&](int y_begin, int y_end) {
-    std::uint16_t codes[kTrustChunk];
+    std::uint16_t codes[kMatchChunk];
     for (int y = y_begin; y < y_end; ++y)
-      for (int begin = 0; begin < width; begin += kTrustChunk) {
-        const int count = std::min(kTrustChunk, width - begin);
+      for (int begin = 0; begin < width; begin += kMatchChunk) {
+        const int count = std::min(kMatchChunk, width - begin);
         trustCodes(maps, largest_cost_sum, y, begin, count, kernels, codes);
         const std::uint8_t* state = maps.state.row(y) + begin;
         for (int i = 0; i < count; ++i) {

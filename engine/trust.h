@@ -22,8 +22,7 @@ struct TrustFeatures {
   }
 };
 
-/// The features of up to kTrustChunk pixels from (x_begin, y) on, as codes. `largest_cost_sum`: see Pipeline.
-inline constexpr int kTrustChunk = 64;
+/// The features of up to kMatchChunk pixels from (x_begin, y) on, as codes. `largest_cost_sum`: see Pipeline.
 void trustCodes(const MatchMaps& maps, int largest_cost_sum, int y, int x_begin, int count,
                 const FilterKernels& kernels, std::uint16_t* codes);
 

@@ -7,7 +7,7 @@
 
 namespace pomona {
 
-/// One byte per pixel, 0 or 1.
+/// One byte per pixel, with at most one bit set.
 struct alignas(64) FlagChunk {
   static constexpr int kPixels = 64;
   std::uint8_t flags[kPixels] = {};

@@ -51,15 +51,16 @@ inline constexpr std::uint8_t kPlaneColorTolerance = 15;
 inline constexpr float kPlaneFewestTaps = 6.0f;
 inline constexpr float kPlaneRidge = 0.3f;
 
-/// Of filters/left_right.h: `count` pixels of a row from x_begin on; `right` is the whole row of the right
-/// map.
+/// Of filters/left_right.h: `count` pixels of a row from x_begin on, at most kMatchChunk; `right` is the
+/// whole row of the right map.
 struct LeftRightPixels {
   const float* disparity;
   const float* right;
   int x_begin, count, width;
 };
-/// Disparities of this size or more, as infinite ones, meet nothing.
-inline constexpr float kFarthestDisparity_px = 1e9f;
+inline constexpr int kMatchChunk = 64;
+/// What becomes of a disparity: 0 also if it is NaN.
+inline constexpr int kAgrees = 0, kContradicted = 1, kMatchOutside = 2;
 
 /// Of engine/trust.h.
 inline constexpr int kTrustSteps = 16;
@@ -70,16 +71,14 @@ struct TrustPixels {
 };
 
 struct FilterKernels {
-  /// first[i] to last[i]: the whole disparities within `tolerance_px` of right[i]; none if it is unknown.
-  void (*metDisparities)(const float* right, int count, float tolerance_px, std::int32_t* first,
-                         std::int32_t* last);
-  /// column[i] = the right column nearest to x - d, -1 if it lies outside the image or d is NaN;
-  /// difference[i] = |d - d_right| there (of column 0 where there is none).
-  void (*matches)(const LeftRightPixels& pixels, std::int32_t* column, float* difference);
+  /// out[i]: what the right map says of the disparity of pixel i, see above.
+  void (*contradictions)(const LeftRightPixels& pixels, float threshold_px, std::uint8_t* out);
+  /// Whether |right[i] - (disparity - i)| <= tolerance_px for some i < count.
+  bool (*meetsAny)(const float* right, int count, int disparity, float tolerance_px);
   /// codes[i] = (margin step * kTrustSteps + curvature step) * kTrustSteps + residual step; the residual's
   /// are eighths of a pixel of |d - d_right| at the match; the last one of each is open upwards.
   void (*trustCodes)(const TrustPixels& pixels, std::uint16_t* codes);
-  /// out[i] = 1 if row[i] is not connected to row[i - 1], see filters/speckle.h.
+  /// out[i] = 1 if row[i] is not connected to row[i - 1], see filters/speckle.h; 0 if both are unknown.
   void (*breaks)(const float* row, int count, float max_step_px, std::uint8_t* out);
   /// out[i] = 1 if upper[i] and lower[i] are connected, and not by way of upper[i - 1] and lower[i - 1]
   /// already.

@@ -46,7 +46,8 @@ void forEachFlagged(int width, Flag flag, Visit visit) {
   }
 }
 
-/// Appends the runs of a row at `next`; returns the index after the last one.
+/// Appends the runs of a row at `next`; returns the index after the last one. Unknown pixels lie between
+/// runs.
 int appendRuns(const float* row, int width, float max_step_px, const FilterKernels& kernels, Run* runs,
                int next) {
   int begin = 0;

@@ -43,6 +43,11 @@ struct Aggregator::Pass {
 
   bool wide() const { return options.p2 > 63; }  // 16-bit partial sums
   bool keepsSums() const { return memory == MemoryMode::kSpeed; }
+  int labelBits() const {
+    const int largest_sum = options.paths * (cost.maximum() + options.p2);
+    return wide() ? 0 : pomona::labelBits(cost.range().lanes(), largest_sum);
+  }
+  bool computesCosts() const { return cost.areCheap() && options.paths == 8 && !wide(); }
   int height() const { return cost.height(); }
   std::size_t sumRowBytes() const {
     return static_cast<std::size_t>(cost.width()) * cost.range().lanes() * (wide() ? 2 : 1);
@@ -95,13 +100,15 @@ AggregateRow Aggregator::prepareRow(const Pass& pass, Paths& paths, int y, int f
     right = from_row < 0 ? steps.aboveRight(seam) : steps.aboveLeft(seam) + 1;
     horizontal = steps.left(y) + (from_column < 0 ? 0 : 1);
   }
+  const bool computed = pass.computesCosts();
   std::uint8_t* path = paths.costs.data();
   const std::size_t path_bytes = pass.pathBytes();
   return {.width = pass.cost.width(),
           .vectors = pass.cost.range().vectors,
           .diagonals = pass.options.paths == 8,
           .wide_sums = pass.wide(),
-          .cost = paths.cost.row(y),
+          .cost = computed ? nullptr : paths.cost.row(y),
+          .census = computed ? pass.cost.censusRow(y, nullptr) : CensusCostRow{},
           .path = {path, path + path_bytes, path + 2 * path_bytes},
           .minima = paths.minima.data(),
           .step = {left, straight, right, horizontal},
@@ -135,15 +142,20 @@ void Aggregator::firstPass(const Pass& pass, int which) {
 
 WinnerRow Aggregator::prepareWinners(const Pass& pass, Sweep& s) {
   const DisparityRange& range = pass.cost.range();
-  const int recent_pixels = static_cast<int>(std::bit_ceil(static_cast<unsigned>(range.disparities + 2)));
+  const int recent_pixels =
+      static_cast<int>(std::bit_ceil(static_cast<unsigned>(range.disparities + 2 + kWinnerBlock)));
   s.recent_sums.resize(static_cast<std::size_t>(recent_pixels) * range.lanes());
   const std::size_t step = staggered(sizeof(std::uint16_t) * pass.cost.width()) / sizeof(std::uint16_t);
   s.winners.resize(9 * step);
   const auto row = [&](int k) { return s.winners.data() + k * step; };
+  for (std::uint16_t* none : {row(5), row(6)}) std::fill_n(none, pass.cost.width(), kNoIndex);
   return {.disparities = range.disparities,
           .min_disparity = range.min_disparity,
           .position = position_.data() + 1,
+          .index_mask = winnerIndexMask(range.disparities),
           .labels = labels_.data(),
+          .label_bits = pass.labelBits(),
+          .near = near_.data(),
           .padded = range.disparities < range.lanes(),
           .padding = padding_.data(),
           .index = row(0),
@@ -163,9 +175,6 @@ WinnerRow Aggregator::prepareWinners(const Pass& pass, Sweep& s) {
 void Aggregator::complete(const Pass& pass, Sweep& s, int y, int from_row, std::uint8_t* sums,
                           WinnerSink sink) {
   const WinnerRow winners = prepareWinners(pass, s);
-  for (std::uint16_t* right :
-       {winners.right_index, winners.right_best, winners.right_below, winners.right_above})
-    std::fill_n(right, pass.cost.width(), kNoIndex);
   pass.kernels.aggregateLast(prepareRow(pass, s.paths, y, from_row, 1, sums), winners);
   sink(y, winners);
 }
@@ -209,14 +218,22 @@ void Aggregator::prepareTables(const Pass& pass) {
   const auto at = [&](int d) {
     return static_cast<std::uint16_t>(wordPosition(d, range.vectors, range.vector_bytes));
   };
-  position_.resize(range.disparities + 2);
-  for (int d = -1; d <= range.disparities; ++d) position_[d + 1] = at(std::clamp(d, 0, last));
+  const int positions = winnerIndexMask(range.disparities) + 1;
+  position_.resize(positions + 2);
+  for (int d = -1; d <= positions; ++d) position_[d + 1] = at(std::clamp(d, 0, last));
   labels_.resize(lanes);
   padding_.resize(lanes);
   for (int d = 0; d < lanes; ++d) {
     labels_[at(d)] = d <= last ? static_cast<std::uint16_t>(d) : kNoIndex;
     padding_[at(d)] = d <= last ? 0 : 0xFFFF;
   }
+
+  if (pass.labelBits() == 0) return;
+  const std::size_t words = static_cast<std::size_t>(range.disparities) * lanes;
+  near_.resize(words);
+  std::fill_n(near_.data(), words, std::uint16_t{0});
+  for (int d = 0; d <= last; ++d)
+    for (int e = std::max(0, d - 1); e <= std::min(last, d + 1); ++e) near_[d * lanes + at(e)] = 0xFFFF;
 }
 
 void Aggregator::run(const MatchingCostRows& cost, const ColorSteps& steps, const AggregationOptions& options,

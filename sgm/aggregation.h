@@ -63,7 +63,7 @@ class Aggregator {
 
   std::array<Sweep, 2> sweep_;
   Buffer<std::uint8_t> sums_;
-  Buffer<std::uint16_t> position_, labels_, padding_;
+  Buffer<std::uint16_t> position_, labels_, padding_, near_;
   Buffer<std::uint8_t> no_steps_;                // a row of zeros, for a constant P2
   std::array<std::uint32_t, 256> p2_of_step_{};  // quads
 };

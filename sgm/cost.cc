@@ -45,6 +45,7 @@ void MatchingCostRows::prepare(Kind kind, const Features& left, int width, int h
   width_ = width;
   height_ = height;
   planes_ = planes;
+  maximum_ = maximum_cost;
   range_ = range;
   kernels_ = &kernels;
   supported_ = has_prior_ = false;
@@ -64,18 +65,23 @@ void MatchingCostRows::prepare(Kind kind, const Features& left, int width, int h
 }
 
 void MatchingCostRows::stripeRow(const std::uint8_t* right, int y, int plane) {
+  constexpr int kBlock = 64;
   std::uint8_t* const to = striped_.data() + y * row_stride_ + plane * plane_stride_;
-  const int n = range_.vectors;
-  for (int phase = 0; phase < n; ++phase) {
-    std::uint8_t* out = to + phase * phase_stride_;
-    // Byte m stands for column c - m * n. Columns right of the image come first, columns left of it last.
-    const int c = width_ - 1 - range_.min_disparity - phase, length = static_cast<int>(phase_stride_);
-    const int first_inside = std::clamp(c <= width_ - 1 ? 0 : (c - width_ + n) / n, 0, length);
-    const int first_beyond = std::clamp(c < 0 ? 0 : c / n + 1, first_inside, length);
-    std::memset(out, right[width_ - 1], first_inside);
-    for (int m = first_inside; m < first_beyond; ++m) out[m] = right[c - m * n];
-    std::memset(out + first_beyond, right[0], length - first_beyond);
-  }
+  const int n = range_.vectors, length = static_cast<int>(phase_stride_);
+  // Byte m of a phase stands for column c - m * n - phase. Columns right of the image come first, columns
+  // left of it last; in between lie blocks whose columns are all inside.
+  const int c = width_ - 1 - range_.min_disparity;
+  const int first = std::clamp((std::max(0, -range_.min_disparity) + n - 1) / n, 0, length);
+  const int blocks = std::max(0, (std::min((c + 1) / n, length) - first) / kBlock),
+            last = first + blocks * kBlock;
+  kernels_->dealRow(right + c - first * n, n, phase_stride_, blocks, to + first);
+  const auto dealClamped = [&](int begin, int end) {
+    for (int phase = 0; phase < n; ++phase)
+      for (int m = begin; m < end; ++m)
+        to[phase * phase_stride_ + m] = right[std::clamp(c - m * n - phase, 0, width_ - 1)];
+  };
+  dealClamped(0, first);
+  dealClamped(last, length);
 }
 
 void MatchingCostRows::stripe(std::span<const ImageView<const std::uint8_t>> right, int threads) {
@@ -153,6 +159,7 @@ void MatchingCostRows::makeRamps(int weight, int reach_px) {
 
 void MatchingCostRows::preparePrior(ImageView<const float> map, int weight, int reach_px, int threads) {
   has_prior_ = true;
+  maximum_ += weight * reach_px;
   makeRamps(weight, reach_px);
   prior_.resize(width_, height_);
   parallelStrips(threads, height_, 16, [&](int begin, int end) {
@@ -167,19 +174,27 @@ void MatchingCostRows::preparePrior(ImageView<const float> map, int weight, int 
   });
 }
 
-void MatchingCostRows::row(int y, std::uint8_t* cost) const {
-  const StripedRow right{striped_.data() + y * row_stride_, phase_stride_, plane_stride_};
-  if (kind_ == Kind::kTable) {
-    kernels_->tableCost(
-        {width_, range_.vectors, left_.gray.row(y), right, table_.data(), padding_.data(), cost});
-    return;
-  }
-  CensusCostRow r{width_, range_.vectors, left_.census->planes, {}, right, padding_.data(), cost};
+CensusCostRow MatchingCostRows::censusRow(int y, std::uint8_t* cost) const {
+  CensusCostRow r{.width = width_,
+                  .vectors = range_.vectors,
+                  .planes = left_.census->planes,
+                  .left = {},
+                  .right = stripedRow(y),
+                  .padded = range_.disparities < range_.lanes(),
+                  .padding = padding_.data(),
+                  .cost = cost};
   for (int p = 0; p < r.planes; ++p) r.left[p] = left_.census->plane[p].row(y);
-  if (kind_ == Kind::kBlended)
-    kernels_->blendedCost({r, left_.sobel.row(y), left_.gray.row(y)});
+  return r;
+}
+
+void MatchingCostRows::row(int y, std::uint8_t* cost) const {
+  if (kind_ == Kind::kTable)
+    kernels_->tableCost(
+        {width_, range_.vectors, left_.gray.row(y), stripedRow(y), table_.data(), padding_.data(), cost});
+  else if (kind_ == Kind::kBlended)
+    kernels_->blendedCost({censusRow(y, cost), left_.sobel.row(y), left_.gray.row(y)});
   else
-    kernels_->censusCost(r);
+    kernels_->censusCost(censusRow(y, cost));
 }
 
 void CostRowReader::start(const MatchingCostRows& cost) {

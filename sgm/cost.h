@@ -49,8 +49,14 @@ class MatchingCostRows {
   /// the above.
   void preparePrior(ImageView<const float> map, int weight, int reach_px, int threads);
 
+  /// Whether costs are so cheap that whoever needs them computes them himself, from censusRow().
+  bool areCheap() const { return kind_ == Kind::kCensus && planes_ == 3 && !supported_ && !has_prior_; }
+  /// Where the costs of row y come from; to be stored at `cost`. Only for costs that begin with a census.
+  CensusCostRow censusRow(int y, std::uint8_t* cost) const;
+
   int width() const { return width_; }
   int height() const { return height_; }
+  int maximum() const { return maximum_; }  ///< no cost is larger
   const DisparityRange& range() const { return range_; }
 
  private:
@@ -62,10 +68,13 @@ class MatchingCostRows {
   void stripe(std::span<const ImageView<const std::uint8_t>> right, int threads);
   void stripeRow(const std::uint8_t* right, int y, int plane);
   void makeRamps(int weight, int reach_px);
+  StripedRow stripedRow(int y) const {
+    return {striped_.data() + y * row_stride_, phase_stride_, plane_stride_};
+  }
   void row(int y, std::uint8_t* cost) const;
 
   Kind kind_ = Kind::kCensus;
-  int width_ = 0, height_ = 0, planes_ = 0;
+  int width_ = 0, height_ = 0, planes_ = 0, maximum_ = 0;
   DisparityRange range_;
   const SgmKernels* kernels_ = nullptr;
   Features left_;

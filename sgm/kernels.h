@@ -19,6 +19,7 @@ enum class Isa;  // core/cpu.h; kernels see no standard library
 
 constexpr int kMaxDisparities = 1024;
 constexpr std::uint16_t kNoIndex = 0xFFFF;
+constexpr int kWinnerBlock = 32;  ///< winners are chosen for so many pixels at a time
 constexpr int kMaxCensusPlanes = 8;
 constexpr int kBlendedPlanes = 6;  // of the right view: census, Sobel, gray
 
@@ -34,6 +35,7 @@ struct CensusCostRow {
   int width, vectors, planes;                  ///< planes: bytes per census code, 3, 4, 6 or 8
   const std::uint8_t* left[kMaxCensusPlanes];  ///< one byte per pixel and plane
   StripedRow right;
+  bool padded;                  ///< whether there are padded lanes
   const std::uint8_t* padding;  ///< vectors * kBytes: the maximum cost in padded lanes, 0 elsewhere
   std::uint8_t* cost;           ///< out: width * vectors * kBytes
 };
@@ -83,7 +85,8 @@ struct AggregateRow {
   int width, vectors;
   bool diagonals;            ///< false: only the straight and the horizontal path
   bool wide_sums;            ///< 16-bit partial sums instead of the 8-bit ones
-  const std::uint8_t* cost;  ///< width * vectors * kBytes
+  const std::uint8_t* cost;  ///< width * vectors * kBytes; or null:
+  CensusCostRow census;      ///< the costs are those of three planes, and computed on the way
   std::uint8_t* path[3];     ///< in: costs of the previous row, out: of this one; guard pixels are zero
   std::uint32_t* minima;     ///< 4 quads per pixel (left, straight, right, horizontal); guard pixels are zero
   const std::uint8_t*
@@ -95,8 +98,12 @@ struct AggregateRow {
 
 struct WinnerRow {
   int disparities, min_disparity;
-  const std::uint16_t* position;  ///< wordPosition of every disparity index; the ends repeat at -1 and D
+  const std::uint16_t* position;  ///< wordPosition of every disparity index; the ends repeat, from -1 on to
+                                  ///< index_mask + 1
+  int index_mask;                 ///< winnerIndexMask(disparities)
   const std::uint16_t* labels;    ///< disparity index of every word position, kNoIndex for padding
+  int label_bits;                 ///< labelBits()
+  const std::uint16_t* near;      ///< if label_bits > 0: per index, 0xFFFF at the positions at most one away
   bool padded;                    ///< whether there are padded disparities
   const std::uint16_t* padding;   ///< 0xFFFF at padded word positions, 0 elsewhere
   std::uint16_t* index;        ///< out, per pixel: the disparity index of the lowest sum (the lowest if tied)
@@ -104,13 +111,21 @@ struct WinnerRow {
   std::uint16_t* below;        ///< out: the sum one disparity below (the pixel's own at index 0)
   std::uint16_t* above;        ///< out: the sum one disparity above (the pixel's own at the last index)
   std::uint16_t* second;       ///< out: the lowest sum more than one disparity away; 0xFFFF if there is none
-  std::uint16_t* right_index;  ///< out, per right pixel; must come in as kNoIndex
-  std::uint16_t* right_best;   ///< out: its sum
+  std::uint16_t* right_index;  ///< out, per right pixel, kNoIndex if none; must come in as kNoIndex
+  std::uint16_t* right_best;   ///< out: its sum; must come in as kNoIndex
   std::uint16_t*
       right_below;  ///< out: the sum one disparity below, seen from the same right pixel; 0xFFFF, like
   std::uint16_t* right_above;  ///< right_above, unless both lie in the image and the range
   std::uint16_t* recent;       ///< scratch: the sums of the last recent_mask + 1 pixels
-  int recent_mask;             ///< a power of two less one; at least disparities + 2 pixels
+  int recent_mask;             ///< a power of two less one; at least disparities + 2 + kWinnerBlock pixels
+};
+
+/// How clearly the winners of a row have won.
+struct ScoreRow {
+  int width;
+  const std::uint16_t *best, *below, *above, *second;
+  std::uint16_t* margin;     ///< out: second - best, or 0
+  std::uint16_t* curvature;  ///< out: below + above - 2 best, or 0
 };
 
 /// Sub-pixel disparities from what winner-take-all left of one row of one view.
@@ -122,6 +137,9 @@ struct RefineRow {
 
 struct SgmKernels {
   int vector_bytes;  ///< kBytes
+  /// gray[x] = (29 B + 150 G + 77 R + 128) / 256.
+  void (*gray8)(const std::uint8_t* bgr, int width, std::uint8_t* gray);
+  void (*gray16)(const std::uint16_t* bgr, int width, std::uint16_t* gray);
   /// Bit k of out[x] = (a[k][x] < b[k][x]), for 8 pairs of rows.
   void (*census8)(const std::uint8_t* const a[8], const std::uint8_t* const b[8], int width,
                   std::uint8_t* out);
@@ -133,6 +151,9 @@ struct SgmKernels {
   /// out[x] = largest |a - b| over the channels (1 or 3, interleaved) of pixel x.
   void (*colorSteps)(const std::uint8_t* a, const std::uint8_t* b, int channels, int width,
                      std::uint8_t* out);
+  /// out[phase * phase_stride + m] = right[-(m * phases + phase)] for m < 64 * blocks, phase < phases.
+  void (*dealRow)(const std::uint8_t* right, int phases, std::ptrdiff_t phase_stride, int blocks,
+                  std::uint8_t* out);
   void (*censusCost)(const CensusCostRow&);
   void (*tableCost)(const TableCostRow&);
   void (*blendedCost)(const BlendedCostRow&);
@@ -140,6 +161,7 @@ struct SgmKernels {
   void (*prior)(const PriorRow&);
   /// Left to right; leaves the partial sums of its paths.
   void (*aggregateFirst)(const AggregateRow&);
+  void (*score)(const ScoreRow&);
   /// One per SubpixelMethod, in its order.
   void (*refine[4])(const RefineRow&);
   /// Right to left; completes the sums and picks the winners of both views.
@@ -150,6 +172,20 @@ const SgmKernels& sgmKernels(Isa isa);
 
 constexpr int vectorsFor(int disparities, int vector_bytes) {
   return (disparities + vector_bytes - 1) / vector_bytes;
+}
+
+/// A mask that lets every disparity index, and every packed one, through.
+constexpr int winnerIndexMask(int disparities) {
+  int mask = 127;
+  while (mask < disparities - 1) mask = 2 * mask + 1;
+  return mask;
+}
+
+/// How many bits of a word the disparity index may have beside sums of up to `largest_sum`: 6, 7, or 0 if it
+/// needs more than sums leave. The word 0xFFFF stays free.
+constexpr int labelBits(int lanes, int largest_sum) {
+  const int bits = lanes <= 64 ? 6 : lanes <= 128 ? 7 : 16;
+  return largest_sum < 0xFFFF >> bits ? bits : 0;
 }
 
 /// Where the 16-bit sum of disparity index d stands among those of its pixel.

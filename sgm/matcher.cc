@@ -15,16 +15,16 @@ void finishRow(const WinnerRow& w, int y, const MatchOptions& o, const SgmKernel
   refine({width, o.disparities, o.min_disparity, w.right_index, w.right_best, w.right_below, w.right_above,
           out.right_disparity.row(y)});
 
-  const int keep_percent = 100 - o.winner.uniqueness_percent;
-  const bool everything = o.winner.uniqueness_percent == 0;
-  std::uint16_t *margin = out.margin.row(y), *curvature = out.curvature.row(y);
+  kernels.score({width, w.best, w.below, w.above, w.second, out.margin.row(y), out.curvature.row(y)});
+
+  constexpr auto kMeasured = static_cast<std::uint8_t>(PixelState::kMeasured);
   std::uint8_t* state = out.state.row(y);
-  for (int x = 0; x < width; ++x) {
-    margin[x] = static_cast<std::uint16_t>(std::max(0, w.second[x] - w.best[x]));
-    curvature[x] = static_cast<std::uint16_t>(std::max(0, w.below[x] + w.above[x] - 2 * w.best[x]));
-    const bool unique = everything | (100 * w.best[x] <= keep_percent * w.second[x]);
-    state[x] = static_cast<std::uint8_t>(unique ? PixelState::kMeasured : PixelState::kAmbiguous);
-  }
+  std::fill_n(state, width, kMeasured);
+  if (o.winner.uniqueness_percent == 0) return;
+  const int keep_percent = 100 - o.winner.uniqueness_percent;
+  for (int x = 0; x < width; ++x)
+    if (100 * w.best[x] > keep_percent * w.second[x])
+      state[x] = static_cast<std::uint8_t>(PixelState::kAmbiguous);
 }
 
 }  // namespace

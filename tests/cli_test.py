@@ -407,7 +407,8 @@ class BadOptions(CommandTest):
         self.refuse("--max-disparity = nan; allowed: a number", "--max-disparity", "nan")
         self.refuse("--max-disparity", "--max-disparity", "99999999999")
         self.refuse("--nonsense", "--nonsense", status=2)
-        self.assert_refused(self.run_command(), "compute, measure, eval, compare, calibrate, rig, rectify, check, render", 2)
+        self.assert_refused(self.run_command(), "compute, measure, eval, compare, range, plugins, calibrate, rig, rectify, check, "
+                            "render", 2)
         self.assert_refused(self.run_command("guess"), "guess", 2)
         self.assert_refused(self.run_command("compute"), "left", 2)
         self.assert_refused(self.run_command("compute", self.left, self.right), "--output", 2)

@@ -105,8 +105,8 @@ TEST(Engine, WholeFrameGoldenHashes) {
   const auto hash = [&](const char* preset, OutputMode mode) {
     return hashOf(computeDisparity(pair.left.image, pair.right.image, makeOptions(preset, 45, mode)));
   };
-  EXPECT_EQ(hash("fast", OutputMode::kSparse), 9792597548047722120u);
-  EXPECT_EQ(hash("fast", OutputMode::kDense), 2388589926769983813u);
+  EXPECT_EQ(hash("fast", OutputMode::kSparse), 5399657888779382725u);
+  EXPECT_EQ(hash("fast", OutputMode::kDense), 12444174204875565741u);
   EXPECT_EQ(hash("balanced", OutputMode::kSparse), 6023207272991326325u);
   EXPECT_EQ(hash("balanced", OutputMode::kDense), 16533857595060369009u);
   EXPECT_EQ(hash("quality", OutputMode::kDense), 16248278819585334180u);

@@ -215,6 +215,21 @@ TEST(Sgm, EqualsTextbookForNegativeAndOffsetRanges) {
         {65, 12, 30, min_disparity, MatchingCost::kCensus5x5, kSoft, Content::kShifted});
 }
 
+TEST(Sgm, EqualsTextbookWhereSumsAndIndicesShareAWord) {
+  // Sums of 8 (24 + 39) = 504 leave seven bits for the index, those of 512 leave only six.
+  for (int p2 : {39, 40})
+    for (int disparities : {64, 65, 100, 128})
+      for (int min_disparity : {-5, 0, 9})
+        for (Content content : {Content::kConstant, Content::kNoise, Content::kShifted})
+          compareWithTextbook<std::uint8_t>({140,
+                                             8,
+                                             disparities,
+                                             min_disparity,
+                                             MatchingCost::kCensus5x5,
+                                             {8, 5, p2, 10, PenaltyAdaptation::kSoftIntensity},
+                                             content});
+}
+
 TEST(Sgm, EqualsTextbookForThinImages) {
   for (int height : {1, 2, 3})
     for (int width : {1, 5, 40})

@@ -93,17 +93,17 @@ void collect(const char* preset, const cv::Mat& left, const cv::Mat& right, cons
   StageClock untimed;
   pipeline.run(input.views(), {}, untimed);
   const MatchMaps& maps = pipeline.maps();
-  std::uint16_t codes[kTrustChunk];
+  std::uint16_t codes[kMatchChunk];
   for (int y = 0; y < truth.rows; ++y)
     for (int x = 0; x < truth.cols; ++x) {
-      if (x % kTrustChunk == 0)
-        trustCodes(maps, pipeline.largestCostSum(), y, x, std::min(kTrustChunk, truth.cols - x),
+      if (x % kMatchChunk == 0)
+        trustCodes(maps, pipeline.largestCostSum(), y, x, std::min(kMatchChunk, truth.cols - x),
                    pipeline.filterKernels(), codes);
       const float error = std::fabs(maps.disparity.row(y)[x] - truth.at<float>(y, x));
       if (std::isnan(error)) continue;
       const auto state = static_cast<PixelState>(maps.state.row(y)[x]);
       if (state == PixelState::kMeasured) {
-        cells.measured[codes[x % kTrustChunk]].errors.push_back(error);
+        cells.measured[codes[x % kMatchChunk]].errors.push_back(error);
       } else {
         cells.filled[state].errors.push_back(error);
       }

@@ -17,11 +17,13 @@ namespace {
 KernelTables timedTables(Isa isa) {
   KernelTables t{sgmKernels(isa), filterKernels(isa), pyramidKernels(isa)};
 #define TIMED(table, kernel) t.table.kernel = timed<#kernel>(t.table.kernel)
+  TIMED(sgm, gray8), TIMED(sgm, gray16), TIMED(sgm, score);
   TIMED(sgm, census8), TIMED(sgm, census16), TIMED(sgm, sobel), TIMED(sgm, colorSteps);
-  TIMED(sgm, censusCost), TIMED(sgm, tableCost), TIMED(sgm, blendedCost), TIMED(sgm, support);
+  TIMED(sgm, dealRow), TIMED(sgm, censusCost), TIMED(sgm, tableCost), TIMED(sgm, blendedCost),
+      TIMED(sgm, support);
   TIMED(sgm, prior), TIMED(sgm, aggregateFirst), TIMED(sgm, aggregateLast);
   TIMED(sgm, refine[0]), TIMED(sgm, refine[1]), TIMED(sgm, refine[2]), TIMED(sgm, refine[3]);
-  TIMED(filters, metDisparities), TIMED(filters, matches), TIMED(filters, trustCodes);
+  TIMED(filters, contradictions), TIMED(filters, meetsAny), TIMED(filters, trustCodes);
   TIMED(filters, breaks), TIMED(filters, links);
   TIMED(filters, median3x3), TIMED(filters, median5x5), TIMED(filters, jointBilateral);
   TIMED(filters, nearJumps), TIMED(filters, weightedMedian);

@@ -115,9 +115,13 @@ template <int kFactor>
 POMONA_OP U16 addScaledHigh(U8 a, U8 b) {
   return _mm256_maddubs_epi16(_mm256_unpackhi_epi8(a, b), _mm256_set1_epi16(1 + 256 * kFactor));
 }
-POMONA_OP U16 minimum16(U16 v) {
+template <int kBits>
+POMONA_OP U16 shiftLeft16(U16 a) {
+  return _mm256_slli_epi16(a, kBits);
+}
+POMONA_OP std::uint16_t smallest16(U16 v) {
   const __m128i a = _mm_min_epu16(_mm256_castsi256_si128(v), _mm256_extracti128_si256(v, 1));
-  return _mm256_broadcastw_epi16(_mm_minpos_epu16(a));
+  return static_cast<std::uint16_t>(_mm_cvtsi128_si32(_mm_minpos_epu16(a)));
 }
 POMONA_OP std::uint16_t first16(U16 v) {
   return static_cast<std::uint16_t>(_mm_cvtsi128_si32(_mm256_castsi256_si128(v)));

@@ -118,10 +118,14 @@ template <int kFactor>
 POMONA_OP U16 addScaledHigh(U8 a, U8 b) {
   return _mm512_maddubs_epi16(_mm512_unpackhi_epi8(a, b), _mm512_set1_epi16(1 + 256 * kFactor));
 }
-POMONA_OP U16 minimum16(U16 v) {
+template <int kBits>
+POMONA_OP U16 shiftLeft16(U16 a) {
+  return _mm512_slli_epi16(a, kBits);
+}
+POMONA_OP std::uint16_t smallest16(U16 v) {
   const __m256i a = _mm256_min_epu16(_mm512_castsi512_si256(v), _mm512_extracti64x4_epi64(v, 1));
   const __m128i b = _mm_min_epu16(_mm256_castsi256_si128(a), _mm256_extracti128_si256(a, 1));
-  return _mm512_broadcastw_epi16(_mm_minpos_epu16(b));
+  return static_cast<std::uint16_t>(_mm_cvtsi128_si32(_mm_minpos_epu16(b)));
 }
 POMONA_OP std::uint16_t first16(U16 v) {
   return static_cast<std::uint16_t>(_mm_cvtsi128_si32(_mm512_castsi512_si128(v)));

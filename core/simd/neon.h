@@ -105,8 +105,12 @@ template <int kFactor>
 POMONA_OP U16 addScaledHigh(U8 a, U8 b) {
   return vmlal_high_u8(widenHigh(a), b, vdupq_n_u8(kFactor));
 }
-POMONA_OP U16 minimum16(U16 v) {
-  return vdupq_n_u16(vminvq_u16(v));
+template <int kBits>
+POMONA_OP U16 shiftLeft16(U16 a) {
+  return vshlq_n_u16(a, kBits);
+}
+POMONA_OP std::uint16_t smallest16(U16 v) {
+  return vminvq_u16(v);
 }
 POMONA_OP std::uint16_t first16(U16 v) {
   return vgetq_lane_u16(v, 0);

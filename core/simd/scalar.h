@@ -144,10 +144,14 @@ template <int kFactor>
 POMONA_OP U16 addScaledHigh(U8 a, U8 b) {
   return eachWord([&](int i) { return a.v[8 + i] + kFactor * b.v[8 + i]; });
 }
-POMONA_OP U16 minimum16(U16 a) {  ///< the smallest word, in every lane
+template <int kBits>
+POMONA_OP U16 shiftLeft16(U16 a) {
+  return eachWord([&](int i) { return static_cast<std::uint16_t>(a.v[i] << kBits); });
+}
+POMONA_OP std::uint16_t smallest16(U16 a) {  ///< the smallest word
   std::uint16_t m = a.v[0];
   for (int i = 1; i < 8; ++i) m = a.v[i] < m ? a.v[i] : m;
-  return broadcast16(m);
+  return m;
 }
 POMONA_OP std::uint16_t first16(U16 a) {
   return a.v[0];

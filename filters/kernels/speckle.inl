@@ -6,7 +6,11 @@ namespace pomona {
 namespace {
 
 inline void breaksOf(const float* row, int count, float max_step_px, std::uint8_t* __restrict out) {
-  for (int i = 0; i < count; ++i) out[i] = !(__builtin_fabsf(row[i] - row[i - 1]) <= max_step_px);
+  for (int i = 0; i < count; ++i) {
+    const float here = row[i], before = row[i - 1];
+    const bool unknown = (here != here) & (before != before);
+    out[i] = !(unknown | (__builtin_fabsf(here - before) <= max_step_px));
+  }
 }
 
 inline void linksOf(const float* upper, const float* lower, int count, float max_step_px,

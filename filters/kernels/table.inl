@@ -14,8 +14,8 @@
 namespace pomona {
 namespace {
 
-constexpr FilterKernels kTable = {.metDisparities = metDisparitiesOf,
-                                  .matches = matchesOf,
+constexpr FilterKernels kTable = {.contradictions = contradictionsOf,
+                                  .meetsAny = meetsAnyOf,
                                   .trustCodes = trustCodesOf,
                                   .breaks = breaksOf,
                                   .links = linksOf,

@@ -8,13 +8,13 @@
 #pragma once
 
 #include "sgm/kernels.h"
+#include "sgm/kernels/cost.inl"
 #include "sgm/kernels/dispatch.inl"
 #include "sgm/kernels/winner.inl"
 
 namespace {
 
 using pomona::AggregateRow;
-using pomona::WinnerRow;
 using simd::U16;
 using simd::U8;
 
@@ -22,21 +22,25 @@ constexpr int kMaxVectors = pomona::kMaxDisparities / simd::kBytes;
 template <int kVectors>
 constexpr int kCapacity = kVectors ? kVectors : kMaxVectors;
 
-/// The recurrence: path costs `previous` with smallest value `minimum` extended to a pixel with matching cost
-/// `cost`. Returns a vector whose smallest lane is the new minimum.
-template <int kVectors>
+/// The recurrence: path costs `previous`, whose smallest value is `minimum`, extended to a pixel with
+/// matching cost `cost`. Returns a vector whose smallest lane is the new minimum. Either the previous costs
+/// lose their minimum first, or what is chosen from them does: the same result, with an operation less or a
+/// shorter way from the minimum on.
+template <int kVectors, bool kMinimumIsLate>
 POMONA_OP U8 extendPath(const U8* previous, U8 minimum, U8 p1, U8 p2, const U8* cost, U8* next, int vectors) {
   const int n = kVectors ? kVectors : vectors;
+  U8 from[kCapacity<kVectors>];
+  for (int j = 0; j < n; ++j) from[j] = kMinimumIsLate ? previous[j] : simd::sub(previous[j], minimum);
   // The 255 shifted in at either end never wins the `min` before P1 is added: the other neighbour is a real
   // one.
-  const U8 below_first = simd::previousLane(previous[n - 1]), above_last = simd::nextLane(previous[0]);
-  const U8 jump = simd::add(minimum, p2);
+  const U8 below_first = simd::previousLane(from[n - 1]), above_last = simd::nextLane(from[0]);
+  const U8 jump = kMinimumIsLate ? simd::add(minimum, p2) : p2;
   U8 smallest = jump;  // until the loop has its first
   for (int j = 0; j < n; ++j) {
-    const U8 below = j > 0 ? previous[j - 1] : below_first, above = j < n - 1 ? previous[j + 1] : above_last;
+    const U8 below = j > 0 ? from[j - 1] : below_first, above = j < n - 1 ? from[j + 1] : above_last;
     const U8 stepped = simd::add(simd::min(below, above), p1);
-    const U8 cheapest = simd::min(simd::min(previous[j], stepped), jump);
-    next[j] = simd::add(cost[j], simd::sub(cheapest, minimum));
+    const U8 cheapest = simd::min(simd::min(from[j], stepped), jump);
+    next[j] = simd::add(cost[j], kMinimumIsLate ? simd::sub(cheapest, minimum) : cheapest);
     smallest = j == 0 ? next[0] : simd::min(smallest, next[j]);
   }
   return smallest;
@@ -52,10 +56,11 @@ POMONA_OP void storePixel(std::uint8_t* p, const U8* v, int vectors) {
 }
 
 /// Walks the row in steps of kStep and calls emit(x, cost, left, straight, right, horizontal) with the path
-/// costs of every pixel. The paths are updated in place: the one whose predecessor lies behind us is carried
-/// in registers.
-template <int kVectors, int kStep, bool kDiagonals, typename Emit>
-POMONA_OP void sweepRow(const AggregateRow& r, Emit&& emit) {
+/// costs of every pixel, and now and then done(x, count) after the last pixel x of `count`. The paths are
+/// updated in place: the one whose predecessor lies behind us is carried in registers.
+template <int kVectors, int kStep, bool kDiagonals, bool kCheapCost, typename Emit, typename Done>
+POMONA_OP void sweepRow(const AggregateRow& row, Emit&& emit, Done&& done) {
+  const AggregateRow r = row;  // stores of vectors may alias everything but locals
   constexpr int kN = kCapacity<kVectors>;
   constexpr int kBehind = kStep > 0 ? 0 : 2, kAhead = 2 - kBehind;
   const int n = kVectors ? kVectors : r.vectors;
@@ -72,27 +77,31 @@ POMONA_OP void sweepRow(const AggregateRow& r, Emit&& emit) {
     carried[j] = horizontal[j] = horizontal_minimum;  // the guard pixel, and a fresh start
 
   for (int i = 0; i < r.width; ++i, x += kStep) {
+    if (i > 0 && i % pomona::kWinnerBlock == 0) done(x - kStep, pomona::kWinnerBlock);
     U8 cost[kN], previous[kN], to_behind[kN], to_straight[kN], to_ahead[kN], to_horizontal[kN];
-    loadPixel<kVectors>(r.cost + x * pixel, cost, n);
-    const U8 m3 = extendPath<kVectors>(horizontal, horizontal_minimum, p1,
-                                       simd::broadcastQuad(r.p2 + r.step[3][x]), cost, to_horizontal, n);
+    if constexpr (kCheapCost)
+      censusPixel<kVectors, 3>(r.census, static_cast<int>(x), cost);
+    else
+      loadPixel<kVectors>(r.cost + x * pixel, cost, n);
+    const U8 m3 = extendPath<kVectors, true>(
+        horizontal, horizontal_minimum, p1, simd::broadcastQuad(r.p2 + r.step[3][x]), cost, to_horizontal, n);
     const U8 straight_minimum = simd::broadcastQuad(minima + 4 * x + 1);
     loadPixel<kVectors>(straight + x * pixel, previous, n);
-    const U8 m1 = extendPath<kVectors>(previous, straight_minimum, p1,
-                                       simd::broadcastQuad(r.p2 + r.step[1][x]), cost, to_straight, n);
+    const U8 m1 = extendPath<kVectors, false>(previous, straight_minimum, p1,
+                                              simd::broadcastQuad(r.p2 + r.step[1][x]), cost, to_straight, n);
     storePixel<kVectors>(straight + x * pixel, to_straight, n);
     U8 m_behind = m1, m_ahead = m1;
     if constexpr (kDiagonals) {
-      m_behind = extendPath<kVectors>(carried, carried_minimum, p1,
-                                      simd::broadcastQuad(r.p2 + r.step[kBehind][x]), cost, to_behind, n);
+      m_behind = extendPath<kVectors, false>(
+          carried, carried_minimum, p1, simd::broadcastQuad(r.p2 + r.step[kBehind][x]), cost, to_behind, n);
       carried_minimum = simd::broadcastQuad(minima + 4 * x + kBehind);
       loadPixel<kVectors>(behind + x * pixel, carried, n);
       storePixel<kVectors>(behind + x * pixel, to_behind, n);
 
       const U8 ahead_minimum = simd::broadcastQuad(minima + 4 * (x + kStep) + kAhead);
       loadPixel<kVectors>(ahead + (x + kStep) * pixel, previous, n);
-      m_ahead = extendPath<kVectors>(previous, ahead_minimum, p1,
-                                     simd::broadcastQuad(r.p2 + r.step[kAhead][x]), cost, to_ahead, n);
+      m_ahead = extendPath<kVectors, false>(previous, ahead_minimum, p1,
+                                            simd::broadcastQuad(r.p2 + r.step[kAhead][x]), cost, to_ahead, n);
       storePixel<kVectors>(ahead + x * pixel, to_ahead, n);
     }
     const simd::Minima all =
@@ -102,6 +111,7 @@ POMONA_OP void sweepRow(const AggregateRow& r, Emit&& emit) {
     for (int j = 0; j < n; ++j) horizontal[j] = to_horizontal[j];
     emit(x, cost, to_behind, to_straight, to_ahead, to_horizontal);
   }
+  done(x - kStep, (r.width - 1) % pomona::kWinnerBlock + 1);
 }
 
 /// Sum of the sweep's path costs for vector j, modulo 256.
@@ -120,11 +130,12 @@ POMONA_OP void wordSum(U8 behind, U8 straight, U8 ahead, U8 horizontal, U16& low
   }
 }
 
-template <int kVectors, bool kDiagonals, bool kWide>
+template <int kVectors, bool kDiagonals, bool kWide, bool kCheapCost>
 void firstPass(const AggregateRow& r) {
   const int n = kVectors ? kVectors : r.vectors;
-  sweepRow<kVectors, 1, kDiagonals>(
-      r, [&](std::ptrdiff_t x, const U8*, const U8* b, const U8* s, const U8* a, const U8* h) {
+  sweepRow<kVectors, 1, kDiagonals, kCheapCost>(
+      r,
+      [&](std::ptrdiff_t x, const U8*, const U8* b, const U8* s, const U8* a, const U8* h) {
         for (int j = 0; j < n; ++j) {
           const std::ptrdiff_t at = (x * n + j) * simd::kBytes;
           if constexpr (kWide) {
@@ -137,62 +148,79 @@ void firstPass(const AggregateRow& r) {
             simd::store(static_cast<std::uint8_t*>(r.sums) + at, byteSum<kDiagonals>(b[j], s[j], a[j], h[j]));
           }
         }
-      });
+      },
+      [](std::ptrdiff_t, int) {});
 }
 
 /// Completes the sums. In bytes: each path exceeds its matching cost C by at most P2 (it is C plus a
 /// penalty), so a sweep of k <= 4 paths satisfies 0 <= sum - k C <= 4 P2 <= 252 and is known exactly from its
 /// value modulo 256.
-template <int kVectors, bool kDiagonals, bool kWide>
+template <int kVectors, bool kDiagonals, bool kWide, bool kCheapCost, int kLabelBits>
 void lastPass(const AggregateRow& r, const WinnerRow& w) {
   const int n = kVectors ? kVectors : r.vectors;
-  Winner<kCapacity<kVectors>> winner(w, n, r.width);
-  sweepRow<kVectors, -1, kDiagonals>(r, [&](std::ptrdiff_t x, const U8* c, const U8* b, const U8* s,
-                                            const U8* a, const U8* h) {
-    U16 sums[2 * kCapacity<kVectors>];
-    for (int j = 0; j < n; ++j) {
-      const std::ptrdiff_t at = (x * n + j) * simd::kBytes;
-      if constexpr (kWide) {
-        wordSum<kDiagonals>(b[j], s[j], a[j], h[j], sums[2 * j], sums[2 * j + 1]);
-        const auto* first = static_cast<const std::uint16_t*>(r.sums) + at;
-        sums[2 * j] = simd::add16(sums[2 * j], simd::load16(first));
-        sums[2 * j + 1] = simd::add16(sums[2 * j + 1], simd::load16(first + simd::kBytes / 2));
-      } else {
-        constexpr int kPaths = kDiagonals ? 4 : 2;
-        const U8 twice = simd::add(c[j], c[j]), base = kDiagonals ? simd::add(twice, twice) : twice;
-        const U8 first = simd::sub(simd::load(static_cast<const std::uint8_t*>(r.sums) + at), base);
-        const U8 last = simd::sub(byteSum<kDiagonals>(b[j], s[j], a[j], h[j]), base);
-        sums[2 * j] = simd::add16(simd::addScaledLow<2 * kPaths>(last, c[j]), simd::widenLow(first));
-        sums[2 * j + 1] = simd::add16(simd::addScaledHigh<2 * kPaths>(last, c[j]), simd::widenHigh(first));
-      }
-    }
-    winner.template pixel<kVectors>(static_cast<int>(x), sums);
-  });
-  winner.template finish<kVectors>();
+  Winner<kVectors, kLabelBits> winner(w, n, r.width);
+  sweepRow<kVectors, -1, kDiagonals, kCheapCost>(
+      r,
+      [&](std::ptrdiff_t x, const U8* c, const U8* b, const U8* s, const U8* a, const U8* h) {
+        U16 sums[2 * kCapacity<kVectors>];
+        for (int j = 0; j < n; ++j) {
+          const std::ptrdiff_t at = (x * n + j) * simd::kBytes;
+          if constexpr (kWide) {
+            wordSum<kDiagonals>(b[j], s[j], a[j], h[j], sums[2 * j], sums[2 * j + 1]);
+            const auto* first = static_cast<const std::uint16_t*>(r.sums) + at;
+            sums[2 * j] = simd::add16(sums[2 * j], simd::load16(first));
+            sums[2 * j + 1] = simd::add16(sums[2 * j + 1], simd::load16(first + simd::kBytes / 2));
+          } else {
+            constexpr int kPaths = kDiagonals ? 4 : 2;
+            const U8 twice = simd::add(c[j], c[j]), base = kDiagonals ? simd::add(twice, twice) : twice;
+            const U8 first = simd::sub(simd::load(static_cast<const std::uint8_t*>(r.sums) + at), base);
+            const U8 last = simd::sub(byteSum<kDiagonals>(b[j], s[j], a[j], h[j]), base);
+            sums[2 * j] = simd::add16(simd::addScaledLow<2 * kPaths>(last, c[j]), simd::widenLow(first));
+            sums[2 * j + 1] =
+                simd::add16(simd::addScaledHigh<2 * kPaths>(last, c[j]), simd::widenHigh(first));
+          }
+        }
+        winner.put(x, sums);
+      },
+      [&](std::ptrdiff_t x, int count) { winner.chooseWinners(static_cast<int>(x) + count - 1, count); });
+  winner.finish();
 }
 
-template <int kVectors, typename F>
+/// Calls f(number of vectors, whether there are diagonals, wide sums, cheap costs), as constants. Cheap costs
+/// that come with few paths or wide sums are stored first, like others.
+template <typename F>
 POMONA_OP void withShape(const AggregateRow& r, F f) {
-  if (r.diagonals)
-    r.wide_sums ? f(Constant<1>{}, Constant<1>{}) : f(Constant<1>{}, Constant<0>{});
-  else
-    r.wide_sums ? f(Constant<0>{}, Constant<1>{}) : f(Constant<0>{}, Constant<0>{});
+  constexpr Constant<1> yes{};
+  constexpr Constant<0> no{};
+  withVectors(r.vectors, [&](auto v) {
+    if (r.cost == nullptr) return f(v, yes, no, yes);
+    if (r.diagonals) return r.wide_sums ? f(v, yes, yes, no) : f(v, yes, no, no);
+    r.wide_sums ? f(v, no, yes, no) : f(v, no, no, no);
+  });
 }
 
 void aggregateFirst(const AggregateRow& r) {
-  withVectors(r.vectors, [&](auto v) {
-    withShape<decltype(v)::value>(r, [&](auto d, auto wide) {
-      firstPass<decltype(v)::value, decltype(d)::value, decltype(wide)::value>(r);
-    });
+  withShape(r, [&](auto v, auto diagonals, auto wide, auto cheap) {
+    firstPass<v(), diagonals(), wide(), cheap()>(r);
+  });
+}
+
+template <int kLabelBits>
+void aggregateLastWith(const AggregateRow& r, const WinnerRow& w) {
+  withShape(r, [&](auto v, auto diagonals, auto wide, auto cheap) {
+    lastPass<v(), diagonals(), wide(), cheap(), wide() ? 0 : kLabelBits>(r, w);
   });
 }
 
 void aggregateLast(const AggregateRow& r, const WinnerRow& w) {
-  withVectors(r.vectors, [&](auto v) {
-    withShape<decltype(v)::value>(r, [&](auto d, auto wide) {
-      lastPass<decltype(v)::value, decltype(d)::value, decltype(wide)::value>(r, w);
-    });
-  });
+  switch (w.label_bits) {
+    case 6:
+      return aggregateLastWith<6>(r, w);
+    case 7:
+      return aggregateLastWith<7>(r, w);
+    default:
+      return aggregateLastWith<0>(r, w);
+  }
 }
 
 }  // namespace

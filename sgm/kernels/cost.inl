@@ -19,6 +19,26 @@ POMONA_OP const std::uint8_t* rightLanes(const StripedRow& right, int width, int
   return right.data + (t % n) * right.phase_stride + t / n;
 }
 
+/// out[phase * phase_stride + m] = right[-(m * phases + phase)] for m < 64 * blocks. GCC vectorises the
+/// loops.
+template <int kPhases>
+void dealRowTo(const std::uint8_t* right, int phases, std::ptrdiff_t phase_stride, int blocks,
+               std::uint8_t* __restrict out) {
+  constexpr int kBlock = 64;
+  const int n = kPhases ? kPhases : phases;
+  for (int b = 0; b < blocks; ++b, right -= n * kBlock, out += kBlock) {
+    std::uint8_t reversed[(kPhases ? kPhases : pomona::kMaxDisparities / simd::kBytes) * kBlock];
+    for (int i = 0; i < n * kBlock; ++i) reversed[i] = right[-i];
+    for (int phase = 0; phase < n; ++phase)
+      for (int m = 0; m < kBlock; ++m) out[phase * phase_stride + m] = reversed[m * n + phase];
+  }
+}
+
+void dealRow(const std::uint8_t* right, int phases, std::ptrdiff_t phase_stride, int blocks,
+             std::uint8_t* out) {
+  withVectors(phases, [&](auto n) { dealRowTo<n()>(right, phases, phase_stride, blocks, out); });
+}
+
 /// Hamming distance of the census codes at vector `right` of the right view, 0 .. 8 * planes.
 template <int kPlanes>
 POMONA_OP simd::U8 hamming(const simd::U8* left, const std::uint8_t* right, std::ptrdiff_t plane_stride) {
@@ -30,18 +50,28 @@ POMONA_OP simd::U8 hamming(const simd::U8* left, const std::uint8_t* right, std:
   return sum;
 }
 
+/// The costs of pixel x.
 template <int kVectors, int kPlanes>
-void censusCostOf(const CensusCostRow& r) {
+POMONA_OP void censusPixel(const CensusCostRow& r, int x, simd::U8* cost) {
+  const int vectors = kVectors ? kVectors : r.vectors;
+  simd::U8 left[kPlanes];
+  for (int p = 0; p < kPlanes; ++p) left[p] = simd::broadcast(r.left[p][x]);
+  for (int j = 0; j < vectors; ++j) {
+    const std::uint8_t* right = rightLanes(r.right, r.width, vectors, x, j);
+    cost[j] = hamming<kPlanes>(left, right, r.right.plane_stride);
+    if (r.padded) cost[j] = simd::max(simd::load(r.padding + j * simd::kBytes), cost[j]);
+  }
+}
+
+template <int kVectors, int kPlanes>
+void censusCostOf(const CensusCostRow& row) {
+  const CensusCostRow r = row;  // stores of vectors may alias everything but locals
   const int vectors = kVectors ? kVectors : r.vectors;
   std::uint8_t* out = r.cost;
   for (int x = 0; x < r.width; ++x) {
-    simd::U8 left[kPlanes];
-    for (int p = 0; p < kPlanes; ++p) left[p] = simd::broadcast(r.left[p][x]);
-    for (int j = 0; j < vectors; ++j, out += simd::kBytes) {
-      const std::uint8_t* right = rightLanes(r.right, r.width, vectors, x, j);
-      const simd::U8 padding = simd::load(r.padding + j * simd::kBytes);
-      simd::store(out, simd::max(padding, hamming<kPlanes>(left, right, r.right.plane_stride)));
-    }
+    simd::U8 cost[kVectors ? kVectors : pomona::kMaxDisparities / simd::kBytes];
+    censusPixel<kVectors, kPlanes>(r, x, cost);
+    for (int j = 0; j < vectors; ++j, out += simd::kBytes) simd::store(out, cost[j]);
   }
 }
 
@@ -73,7 +103,7 @@ void blendedCostOf(const BlendedCostRow& b) {
 }
 
 void blendedCost(const BlendedCostRow& r) {
-  withVectors(r.census.vectors, [&](auto v) { blendedCostOf<decltype(v)::value>(r); });
+  withVectors(r.census.vectors, [&](auto v) { blendedCostOf<v()>(r); });
 }
 
 template <int kVectors>
@@ -99,20 +129,20 @@ void supportOf(const SupportRow& r) {
 }
 
 void support(const SupportRow& r) {
-  withVectors(r.vectors, [&](auto v) { supportOf<decltype(v)::value>(r); });
+  withVectors(r.vectors, [&](auto v) { supportOf<v()>(r); });
 }
 
 void censusCost(const CensusCostRow& r) {
   withVectors(r.vectors, [&](auto v) {
     switch (r.planes) {
       case 3:
-        return censusCostOf<decltype(v)::value, 3>(r);
+        return censusCostOf<v(), 3>(r);
       case 4:
-        return censusCostOf<decltype(v)::value, 4>(r);
+        return censusCostOf<v(), 4>(r);
       case 6:
-        return censusCostOf<decltype(v)::value, 6>(r);
+        return censusCostOf<v(), 6>(r);
       default:
-        return censusCostOf<decltype(v)::value, 8>(r);
+        return censusCostOf<v(), 8>(r);
     }
   });
 }

@@ -5,7 +5,7 @@ namespace {
 
 template <int kValue>
 struct Constant {
-  static constexpr int value = kValue;
+  constexpr int operator()() const { return kValue; }
 };
 
 /// Calls f(Constant<n>{}); n = 0 stands for "any number, read it at run time".

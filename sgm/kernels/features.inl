@@ -5,6 +5,12 @@
 
 namespace {
 
+template <typename T>
+void grayRow(const T* bgr, int width, T* __restrict gray) {
+  for (int x = 0; x < width; ++x)
+    gray[x] = static_cast<T>((29u * bgr[3 * x] + 150u * bgr[3 * x + 1] + 77u * bgr[3 * x + 2] + 128u) >> 8);
+}
+
 /// Eight comparisons per pixel, packed into a byte.
 template <typename T>
 void censusRow(const T* const a[8], const T* const b[8], int width, std::uint8_t* __restrict out) {

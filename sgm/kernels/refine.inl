@@ -1,4 +1,5 @@
-// Where between whole disparities the minimum lies. GCC vectorises the loop as it stands.
+// Where between whole disparities the minimum lies, and how clear it is. GCC vectorises the loops as they
+// stand.
 #pragma once
 
 #include "sgm/kernels.h"
@@ -26,6 +27,17 @@ struct FittedOffset {
     return 0.5f - r * (kLinear + (0.5f - kLinear) * r);
   }
 };
+
+void scoreRow(const pomona::ScoreRow& r) {
+  const std::uint16_t *best = r.best, *below = r.below, *above = r.above, *second = r.second;
+  std::uint16_t* __restrict margin = r.margin, * __restrict curvature = r.curvature;
+  const int width = r.width;
+  for (int x = 0; x < width; ++x) {
+    margin[x] = static_cast<std::uint16_t>(second[x] > best[x] ? second[x] - best[x] : 0);
+    const int bend = below[x] + above[x] - 2 * best[x];
+    curvature[x] = static_cast<std::uint16_t>(bend > 0 ? bend : 0);
+  }
+}
 
 template <typename Offset>
 void refineRow(const pomona::RefineRow& r) {

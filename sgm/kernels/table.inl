@@ -9,16 +9,20 @@ namespace pomona {
 namespace {
 
 constexpr SgmKernels kTable = {.vector_bytes = simd::kBytes,
+                               .gray8 = grayRow<std::uint8_t>,
+                               .gray16 = grayRow<std::uint16_t>,
                                .census8 = censusRow<std::uint8_t>,
                                .census16 = censusRow<std::uint16_t>,
                                .sobel = sobelRow,
                                .colorSteps = colorStepRow,
+                               .dealRow = dealRow,
                                .censusCost = censusCost,
                                .tableCost = tableCost,
                                .blendedCost = blendedCost,
                                .support = support,
                                .prior = prior,
                                .aggregateFirst = aggregateFirst,
+                               .score = scoreRow,
                                .refine = {refineRow<NoOffset>, refineRow<ParabolaOffset>,
                                           refineRow<EquiangularOffset>, refineRow<FittedOffset>},
                                .aggregateLast = aggregateLast};
