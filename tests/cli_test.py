@@ -371,7 +371,7 @@ class BadSideFiles(CommandTest):
                            (cam0 + "baseline=-1\n", "line 2: baseline is '-1'"),
                            (cam0 + "baseline=120\nwidth=1482\n", "is for images of 1482x64"),
                            (cam0 + "baseline=120\nndisp=97\n", "ndisp of"),
-                           ("\x00\xff\x01", "zero byte")):
+                           ("\x00\xff\x01", "control character")):
             self.refuse(part, "--calib", self.put("calib.txt", text))
 
     def test_ground_truth(self):
