@@ -62,8 +62,8 @@ void printSummary(const ComputeArguments& arguments, const SearchRange& range, c
       print("  %-28s %6.2f %%", std::string(name(static_cast<PixelState>(state))).c_str(),
             percent * pixels_in_state[state]);
   if (!std::isnan(result.row_offset_px))
-    print("rows      right view %+.2f px, %.2f px where it is worst%s", result.row_offset_px,
-          result.row_error_px,
+    print("rows      right view %+.2f px, %.2f px where it is worst%s%s", result.row_offset_px,
+          result.row_error_px, result.rows_aligned ? "; matched after moving it" : "",
           result.rowsAreOff() ? ": warning: the views are not aligned; see pomona check" : "");
   print("time      %.1f ms (%s)", milliseconds, arguments.preset.c_str());
   if (arguments.timings)

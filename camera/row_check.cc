@@ -101,15 +101,15 @@ float sample(Bytes view, float x, float y) {
          (static_cast<float>(below[0]) * (1 - fx) + static_cast<float>(below[1]) * fx) * fy;
 }
 
-// Moves `place` in the right view to where it looks like the left view around (x, y), brightness aside. False
-// if that does not settle, leads away, or leaves the view.
+// Moves `place` in the right view to where it looks like the left view around (x, y), brightness and contrast
+// aside. False if that does not settle, leads away, or leaves the view.
 bool settle(Bytes left, Bytes right, int x, int y, Place& place) {
   constexpr int kRadius = 5, kSide = 2 * kRadius + 1, kMostSteps = 5;
   constexpr float kFarthest = 3, kSettled = 0.03f, kLeastTexture = 8 * kSide * kSide;
   constexpr float kMostOfOne = 0.25f;  // of the texture: no place may hang on a hot pixel
   if (x < kRadius + 1 || y < kRadius + 1 || x + kRadius + 1 >= left.width || y + kRadius + 1 >= left.height)
     return false;
-  std::array<float, kSide * kSide> value, gx, gy;
+  std::array<float, kSide * kSide> value, seen, gx, gy;
   float xx = 0, xy = 0, yy = 0, mean = 0, mean_x = 0, mean_y = 0, largest_xx = 0, largest_yy = 0;
   for (int i = 0; i < kSide * kSide; ++i) {
     const int px = x - kRadius + i % kSide, py = y - kRadius + i / kSide;
@@ -121,6 +121,8 @@ bool settle(Bytes left, Bytes right, int x, int y, Place& place) {
   }
   constexpr float kCount = kSide * kSide;
   mean /= kCount, mean_x /= kCount, mean_y /= kCount;
+  float spread = 0;
+  for (float& v : value) v -= mean, spread += v * v;
   for (std::size_t k = 0; k < gx.size(); ++k) {  // gradients of the brightness above its mean
     gx[k] -= mean_x, gy[k] -= mean_y;
     xx += gx[k] * gx[k], xy += gx[k] * gy[k], yy += gy[k] * gy[k];
@@ -135,13 +137,18 @@ bool settle(Bytes left, Bytes right, int x, int y, Place& place) {
     const float low = kRadius, right_end = static_cast<float>(right.width - kRadius - 2),
                 bottom_end = static_cast<float>(right.height - kRadius - 2);
     if (!(place.x >= low && place.y >= low && place.x <= right_end && place.y <= bottom_end)) return false;
-    float ex = 0, ey = 0;
-    for (int i = 0; i < kSide * kSide; ++i) {
-      const auto k = static_cast<std::size_t>(i);
-      const float seen = sample(right, place.x + static_cast<float>(i % kSide - kRadius),
-                                place.y + static_cast<float>(i / kSide - kRadius));
-      ex += gx[k] * (value[k] - mean - seen);  // the mean of `seen` drops out: the gradients sum to 0
-      ey += gy[k] * (value[k] - mean - seen);
+    float seen_mean = 0, seen_spread = 0, ex = 0, ey = 0;
+    for (int i = 0; i < kSide * kSide; ++i)
+      seen_mean += seen[static_cast<std::size_t>(i)] =
+          sample(right, place.x + static_cast<float>(i % kSide - kRadius),
+                 place.y + static_cast<float>(i / kSide - kRadius));
+    seen_mean /= kCount;
+    for (float& v : seen) v -= seen_mean, seen_spread += v * v;
+    if (!(seen_spread > 0)) return false;
+    const float gain = std::sqrt(spread / seen_spread);
+    for (std::size_t k = 0; k < seen.size(); ++k) {
+      ex += gx[k] * (value[k] - gain * seen[k]);
+      ey += gy[k] * (value[k] - gain * seen[k]);
     }
     const float dx = (yy * ex - xy * ey) / determinant, dy = (xx * ey - xy * ex) / determinant;
     place.x += dx, place.y += dy;
@@ -151,13 +158,10 @@ bool settle(Bytes left, Bytes right, int x, int y, Place& place) {
   return false;
 }
 
-// Offset at (x, y) from the centre, in half widths and half heights: c[0] + c[1] x + c[2] y.
-using Plane = cv::Vec3d;
-
 // The plane that fits most points: least squares, with weights that fade out for those far off, which are
 // mismatches.
-Plane fitPlane(const Match* matches, int count, int width, int height, double median_px) {
-  Plane plane{median_px, 0, 0};
+RowOffsetPlane fitPlane(const Match* matches, int count, int width, int height, float median_px) {
+  RowOffsetPlane plane{median_px, 0, 0};
   for (const double scale_px : {4.0, 2.0, 1.0, 0.5, 0.5}) {
     // A little stiffness, so that points in one part of the image don't swing the rest.
     cv::Matx33d a = cv::Matx33d::diag({0, 1, 1});
@@ -165,26 +169,38 @@ Plane fitPlane(const Match* matches, int count, int width, int height, double me
     for (int i = 0; i < count; ++i) {
       const Match& m = matches[i];
       const cv::Vec3d row(1, 2.0 * m.left.x / width - 1, 2.0 * m.left.y / height - 1);
-      const double dy = m.right.y - m.left.y, off = (dy - plane.dot(row)) / scale_px;
+      const double dy = m.right.y - m.left.y,
+                   off = (dy - plane.at(m.left.x, m.left.y, width, height)) / scale_px;
       const double weight = 1 / ((1 + off * off) * (1 + off * off));
       a += weight * row * row.t();
       b += weight * dy * row;
     }
-    plane = a.solve(b, cv::DECOMP_CHOLESKY);
+    const cv::Vec3d c = a.solve(b, cv::DECOMP_CHOLESKY);
+    plane = {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2])};
   }
   return plane;
 }
 
+template <typename ValueOf>
+float medianOver(int count, ValueOf valueOf) {
+  std::array<float, kColumns * kRows> values;
+  for (int i = 0; i < count; ++i) values[static_cast<std::size_t>(i)] = valueOf(i);
+  std::sort(values.begin(), values.begin() + count);
+  return values[static_cast<std::size_t>(count / 2)];
+}
+
 RowOffsets summary(const Match* matches, int count, int width, int height) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  if (count < kFewestPoints) return {nan, nan, count};
-  std::array<float, kColumns * kRows> dy;
-  for (int i = 0; i < count; ++i) dy[static_cast<std::size_t>(i)] = matches[i].right.y - matches[i].left.y;
-  std::sort(dy.begin(), dy.begin() + count);
-  const float median = dy[static_cast<std::size_t>(count / 2)];
-  const Plane plane = fitPlane(matches, count, width, height, median);
-  const double worst = std::abs(plane[0]) + std::abs(plane[1]) + std::abs(plane[2]);
-  return {median, static_cast<float>(worst), count};
+  if (count < kFewestPoints) return {nan, nan, count, {nan, nan, nan}, nan};
+  const auto offset = [&](int i) { return matches[i].right.y - matches[i].left.y; };
+  const float median = medianOver(count, offset);
+  const RowOffsetPlane plane = fitPlane(matches, count, width, height, median);
+  const float scatter = medianOver(count, [&](int i) {
+    const Place& p = matches[i].left;
+    return std::abs(offset(i) - static_cast<float>(plane.at(p.x, p.y, width, height)));
+  });
+  const float worst = std::abs(plane.center_px) + std::abs(plane.slope_x_px) + std::abs(plane.slope_y_px);
+  return {median, worst, count, plane, scatter};
 }
 
 }  // namespace

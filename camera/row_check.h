@@ -7,6 +7,15 @@
 
 namespace pomona {
 
+/// y_right - y_left, as it varies over the image.
+struct RowOffsetPlane {
+  float center_px, slope_x_px, slope_y_px;  ///< in the middle; from there to the right and the lower border
+
+  double at(double x, double y, int width, int height) const {
+    return center_px + slope_x_px * (2 * x / width - 1) + slope_y_px * (2 * y / height - 1);
+  }
+};
+
 struct RowOffsets {
   /// Median of y_right - y_left over the points: positive where the right view shows things lower. NaN if
   /// fewer than 10 points could be matched.
@@ -15,6 +24,8 @@ struct RowOffsets {
   /// camera that is turned, too. NaN where median_px is.
   float worst_px;
   int points;  ///< that were matched, at most 160
+  RowOffsetPlane plane;
+  float scatter_px;  ///< median distance of the points from the plane; NaN where median_px is
 };
 
 /// Matches up to 160 well-textured points of the left view in two dimensions: by sums of absolute differences

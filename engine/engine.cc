@@ -1,12 +1,12 @@
 #include "pomona/engine.h"
 
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "camera/rectify.h"
+#include "camera/row_align.h"
 #include "camera/row_check.h"
 #include "core/cpu.h"
 #include "core/parallel.h"
@@ -33,6 +33,8 @@ struct StereoEngine::State {
   cv::Mat left, right;                 // rectified
   InputPair input;
   RowCheck row_check;
+  Image<std::uint8_t> right8;  // if rows were moved
+  Image<std::uint16_t> right16;
   Pipeline pipeline;
   Trust trust;
   StereoResult result;
@@ -44,7 +46,8 @@ struct StereoEngine::State {
     result.timings.reserve(32);
   }
   cv::Mat rectify(const cv::Mat& left_view, const cv::Mat& right_view, const cv::Mat& mask);
-  void checkRows();
+  RowOffsets checkRows();
+  MatchInput alignedViews(const RowOffsets& rows);
   void publish();
 };
 
@@ -62,13 +65,26 @@ cv::Mat StereoEngine::State::rectify(const cv::Mat& left_view, const cv::Mat& ri
   return rectifier->rectifyMask(mask, threads);
 }
 
-void StereoEngine::State::checkRows() {
-  result.row_offset_px = result.row_error_px = std::numeric_limits<float>::quiet_NaN();
-  if (!options.row_check) return;
+RowOffsets StereoEngine::State::checkRows() {
   const RowOffsets rows = row_check.measure(input.views().left, input.views().right, options.min_disparity,
                                             options.num_disparities);
   result.row_offset_px = rows.median_px;
   result.row_error_px = rows.worst_px;
+  return rows;
+}
+
+/// The pair with the rows of the right view where they are in the left one, as far as that is known.
+MatchInput StereoEngine::State::alignedViews(const RowOffsets& rows) {
+  MatchInput views = input.views();
+  const std::optional<RowOffsetPlane> correction = rowCorrection(rows);
+  result.rows_aligned = correction.has_value();
+  if (!correction) return views;
+  alignRows(views.right, *correction, right8, threads);
+  views.right = right8.view();
+  if (views.right16.empty()) return views;
+  alignRows(views.right16, *correction, right16, threads);
+  views.right16 = right16.view();
+  return views;
 }
 
 void StereoEngine::State::publish() {
@@ -116,9 +132,14 @@ const StereoResult& StereoEngine::compute(const cv::Mat& left_view, const cv::Ma
   requireRangeFits(s.options.min_disparity, s.options.num_disparities, s.left.cols);
   requireMaskFits(mask, s.left);
   clock.lap("input");
-  s.checkRows();
-  if (s.options.row_check) clock.lap("row check");
-  s.pipeline.run(s.input.views(), maskView(mask), clock);
+  MatchInput views = s.input.views();
+  if (s.options.row_check) {
+    const RowOffsets rows = s.checkRows();
+    clock.lap("row check");
+    if (s.options.align_rows) views = s.alignedViews(rows);
+    if (s.result.rows_aligned) clock.lap("row alignment");
+  }
+  s.pipeline.run(views, maskView(mask), clock);
   s.trust.estimate(s.pipeline.maps(), s.pipeline.largestCostSum(), s.pipeline.filterKernels(), s.threads);
   if (s.options.mode == OutputMode::kSparse && s.options.validation.min_confidence > 0)
     s.trust.reject(s.pipeline.maps(), s.options.validation.min_confidence, s.threads);

@@ -123,6 +123,7 @@ Options Options::preset(std::string_view name) {
     o.aggregation = {8, 10, 100, 10, PenaltyAdaptation::kInverseIntensity};
     o.winner.subpixel = SubpixelMethod::kParabola;
     o.completion.method = CompletionMethod::kPaper;
+    o.align_rows = false;
     return o;
   }
   throw std::invalid_argument("preset is '" + std::string(name) +

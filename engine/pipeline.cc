@@ -2,6 +2,9 @@
 
 #include <utility>
 
+#include "core/parallel.h"
+#include "engine/trust.h"
+
 namespace pomona {
 
 void Pipeline::run(const MatchInput& pair, ImageView<const std::uint8_t> mask, StageClock& clock) {
@@ -35,8 +38,30 @@ void Pipeline::match(const MatchInput& pair, const SparseStage::Settings& settin
   sparse_.run(pair, with_table, clock);
 }
 
+void Pipeline::noteBarePixels() {
+  const MatchMaps& first = maps();
+  bare_.resize(first.margin.width(), first.margin.height());
+  const int largest = largestSum(options_);
+  parallelStrips(threads_, bare_.height(), 32, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      for (int x = 0; x < bare_.width(); ++x)
+        bare_.row(y)[x] = nothingStandsOut(first.margin.row(y)[x], first.curvature.row(y)[x], largest);
+  });
+}
+
+/// Where nothing stood out in the first match, what does in the second is what it was drawn to.
+void Pipeline::keepBarePixels() {
+  MatchMaps& second = maps();
+  parallelStrips(threads_, bare_.height(), 32, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      for (int x = 0; x < bare_.width(); ++x)
+        if (bare_.row(y)[x]) second.margin.row(y)[x] = second.curvature.row(y)[x] = 0;
+  });
+}
+
 /// The second pass: the completed map, which maps() holds, becomes the prior of another match.
 void Pipeline::matchAgain(const MatchInput& pair, const SparseStage::Settings& settings, StageClock& clock) {
+  noteBarePixels();
   std::swap(first_map_, maps().disparity);
   MatchInput views = pair;
   views.prior = first_map_.view();
@@ -46,6 +71,7 @@ void Pipeline::matchAgain(const MatchInput& pair, const SparseStage::Settings& s
   again.match.prior_weight = options_.second_pass.weight;
   again.match.prior_reach_px = options_.second_pass.reach_px;
   sparse_.run(views, again, clock);
+  keepBarePixels();
   completion_.run(pair, settings, options_.completion, maps(), clock);
 }
 

@@ -1,6 +1,8 @@
 // The stages of a frame, from checked views to the final disparities.
 #pragma once
 
+#include <cstdint>
+
 #include "engine/completion_stage.h"
 #include "engine/hierarchical_mi.h"
 #include "engine/sparse_stage.h"
@@ -20,17 +22,22 @@ class Pipeline {
   const FilterKernels& filterKernels() const { return pomona::filterKernels(isa_); }
   /// The largest sum of matching costs over the paths of the last match, whose margins maps() holds.
   int largestCostSum() const {
-    return matchesTwice()
-               ? options_.second_pass.aggregation.paths * maximumCost(options_.second_pass.cost.cost)
-               : options_.aggregation.paths * maximumCost(options_.cost.cost);
+    return matchesTwice() ? largestSum(options_.second_pass) : largestSum(options_);
   }
 
  private:
+  /// Of the first match with Options, of the second with SecondPassOptions.
+  template <typename MatchSettings>
+  static int largestSum(const MatchSettings& o) {
+    return o.aggregation.paths * maximumCost(o.cost.cost);
+  }
   bool isDense() const { return options_.mode == OutputMode::kDense; }
   bool isPaper() const { return isDense() && options_.completion.method == CompletionMethod::kPaper; }
   bool matchesTwice() const { return isDense() && !isPaper() && options_.second_pass.enabled; }
   SparseStage::Settings settings(ImageView<const std::uint8_t> mask) const;
   void match(const MatchInput& pair, const SparseStage::Settings& settings, StageClock& clock);
+  void noteBarePixels();
+  void keepBarePixels();
   void matchAgain(const MatchInput& pair, const SparseStage::Settings& settings, StageClock& clock);
 
   Options options_;
@@ -40,6 +47,7 @@ class Pipeline {
   SparseStage sparse_;
   CompletionStage completion_;
   Image<float> first_map_;
+  Image<std::uint8_t> bare_;  // whether nothing stood out in the first match
 };
 
 }  // namespace pomona

@@ -22,17 +22,18 @@ struct Fit {
 };
 
 // Printed by bench/confidence.
-constexpr Fit kLogOdds = {2.6273, 0.16888, 0.018735, -0.085034, -0.043632, -1.4108};
-constexpr Fit kLogSigma = {-0.99697, -0.107, 0.0013988, 0.026337, 0.021868, 0.7061};
+constexpr Fit kLogOdds = {2.6307, 0.16598, 0.019044, -0.083038, -0.042722, -1.3795};
+constexpr Fit kLogSigma = {-0.9996, -0.10548, 0.0013102, 0.025608, 0.02155, 0.68541};
+constexpr Trust::Pair kNothingStandsOut = {0.51f, 12.92f};
 
 constexpr Trust::Pair trustInFilled(PixelState state) {
   switch (state) {
     case PixelState::kFilledPlane:
-      return {0.86f, 0.47f};
+      return {0.87f, 0.44f};
     case PixelState::kFilledBackground:
-      return {0.47f, 6.97f};
+      return {0.50f, 7.81f};
     case PixelState::kFilledInterpolated:
-      return {0.43f, 6.61f};
+      return {0.46f, 8.00f};
     case PixelState::kFilledCoarse:
       return {0.39f, 3.69f};
     default:
@@ -55,8 +56,9 @@ void trustCodes(const MatchMaps& maps, int largest_cost_sum, int y, int x_begin,
 Trust::Trust() {
   for (int code = 0; code < TrustFeatures::kCodes; ++code) {
     const TrustFeatures f = TrustFeatures::of(code);
-    measured_[code] = {static_cast<float>(1 / (1 + std::exp(-kLogOdds.of(f)))),
-                       static_cast<float>(std::exp(kLogSigma.of(f)))};
+    measured_[code] = f.bare ? kNothingStandsOut
+                             : Pair{static_cast<float>(1 / (1 + std::exp(-kLogOdds.of(f)))),
+                                    static_cast<float>(std::exp(kLogSigma.of(f)))};
   }
   for (int state = 0; state < 256; ++state) in_state_[state] = trustInFilled(static_cast<PixelState>(state));
 }

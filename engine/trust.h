@@ -16,11 +16,18 @@ struct TrustFeatures {
   int margin;     ///< how far the second-best sum is above the best: in twelfths of the largest cost sum
   int curvature;  ///< of the sums at the winner: in twelfths of the largest cost sum
   int residual;   ///< |d - d_right| at the match: in px / 8; the last also if the right view knows none
+  bool bare;      ///< no disparity stands out: a margin below half a step, and a curvature below one
 
   static constexpr TrustFeatures of(int code) {
-    return {code / (kTrustSteps * kTrustSteps), code / kTrustSteps % kTrustSteps, code % kTrustSteps};
+    const int step = code / (kTrustSteps * kTrustSteps), curvature = code / kTrustSteps % kTrustSteps;
+    return {step > 0 ? step - 1 : 0, curvature, code % kTrustSteps, step == 0 && curvature == 0};
   }
 };
+
+/// TrustFeatures::bare, of a margin and a curvature as the matcher gives them.
+constexpr bool nothingStandsOut(int margin, int curvature, int largest_cost_sum) {
+  return 24 * margin < largest_cost_sum && 12 * curvature < largest_cost_sum;
+}
 
 /// The features of up to kMatchChunk pixels from (x_begin, y) on, as codes. `largest_cost_sum`: see Pipeline.
 void trustCodes(const MatchMaps& maps, int largest_cost_sum, int y, int x_begin, int count,

@@ -85,7 +85,8 @@ struct FilterKernels {
   /// max_disparity, within tolerance_px of the right map at q; `width` to `width` if there is none.
   void (*metColumns)(const MetPixels& pixels, std::int32_t* first, std::int32_t* last);
   /// codes[i] = (margin step * kTrustSteps + curvature step) * kTrustSteps + residual step; the residual's
-  /// are eighths of a pixel of |d - d_right| at the match; the last one of each is open upwards.
+  /// are eighths of a pixel of |d - d_right| at the match; the last one of each is open upwards. The first
+  /// step of the margin is cut in two: 0 is its lower half, 1 its upper.
   void (*trustCodes)(const TrustPixels& pixels, std::uint16_t* codes);
   /// out[i] = 1 if row[i] is not connected to row[i - 1], see filters/speckle.h; 0 if both are unknown.
   void (*breaks)(const float* row, int count, float max_step_px, std::uint8_t* out);

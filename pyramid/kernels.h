@@ -50,8 +50,6 @@ struct PyramidKernels {
 
   /// inout = (inout + other) / 2
   void (*average)(const float* other, int n, float* inout);
-  /// inout = weight * inout + (1 - weight) * other
-  void (*blend)(const float* other, const float* weight, int n, float* inout);
 
   /// One step along a ray: out = open & saturating(previous + 1); `open` is 0 at a source, else 0xffff.
   void (*advanceRays)(const std::uint16_t* previous, const std::uint16_t* open, int n, std::uint16_t* out);

@@ -96,6 +96,19 @@ TEST(Engine, FramesAfterTheFirstAllocateNothing) {
     }
     EXPECT_EQ(allocations - before, 0) << "with a rig";
   }
+  {
+    const RenderedPair pair = render(namedScene("boxes", 3, 480, 320, 48));
+    cv::Mat lower(pair.right.image.size(), pair.right.image.type());
+    pair.right.image.rowRange(0, 319).copyTo(lower.rowRange(1, 320));
+    pair.right.image.row(0).copyTo(lower.row(0));
+    Options o;
+    o.threads = 3;
+    StereoEngine engine(o);
+    engine.compute(pair.left.image, lower);
+    const long before = allocations;
+    for (int frame = 0; frame < 5; ++frame) EXPECT_TRUE(engine.compute(pair.left.image, lower).rows_aligned);
+    EXPECT_EQ(allocations - before, 0) << "with rows to be moved";
+  }
   const long before = allocations;
   std::free(std::malloc(10));
   EXPECT_GT(allocations - before, 0) << "the counter does not count";

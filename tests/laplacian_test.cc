@@ -110,47 +110,5 @@ TEST(FuseEqual, IsTheAverageForAnyNumberOfLevels) {
     }
 }
 
-TEST(FuseWeighted, MatchesItsTwinAndIsTheSameOnEverySetting) {
-  for (const auto& [width, height] : kSizes)
-    for (int levels : {1, 3, 6}) {
-      SCOPED_TRACE(sizeText(width, height) + ", levels " + std::to_string(levels));
-      const Padded<float> a = randomMap(width, height, 6, 200), b = randomMap(width, height, 7, 200);
-      const Padded<float> weight = randomMap(width, height, 8, 1);
-      const reference::Map twin =
-          reference::fuseWeighted(toTwin(a.view()), toTwin(b.view()), toTwin(weight.view()), levels);
-      FusionScratch scratch;
-      Padded<float> first(width, height, -7.0f);
-      fuseWeighted(a.view(), b.view(), weight.view(), levels, first.view(), scratch,
-                   pyramidKernels(Isa::kScalar), 1);
-      expectNear(first.view(), twin, 2e-4);
-      forEachSetting([&](const PyramidKernels& kernels, int threads) {
-        Padded<float> out(width, height, -7.0f);
-        fuseWeighted(a.view(), b.view(), weight.view(), levels, out.view(), scratch, kernels, threads);
-        EXPECT_TRUE(out.sameBytes(first));
-      });
-    }
-}
-
-TEST(FuseWeighted, FullWeightsSelectOneMapAndASeamIsBlendedMonotonically) {
-  Padded<float> a(64, 40, 0.0f), b(64, 40, 0.0f), weight(64, 40, 0.0f), out(64, 40, 0.0f);
-  a.fill([](int, int, int) { return 100.0f; });
-  b.fill([](int, int, int) { return 20.0f; });
-  FusionScratch scratch;
-  const PyramidKernels& kernels = pyramidKernels(usableIsas().back());
-  weight.fill([](int, int, int) { return 1.0f; });
-  fuseWeighted(a.view(), b.view(), weight.view(), 5, out.view(), scratch, kernels, 1);
-  expectNear(out.view(), reference::Map(64, 40, 100), 1e-4);
-  weight.fill([](int, int, int) { return 0.0f; });
-  fuseWeighted(a.view(), b.view(), weight.view(), 5, out.view(), scratch, kernels, 1);
-  expectNear(out.view(), reference::Map(64, 40, 20), 1e-4);
-  weight.fill([](int, int x, int) { return x < 32 ? 1.0f : 0.0f; });
-  fuseWeighted(a.view(), b.view(), weight.view(), 3, out.view(), scratch, kernels, 1);
-  EXPECT_NEAR(out.at(20, 0), 100, 1e-3);
-  EXPECT_NEAR(out.at(20, 63), 20, 1e-3);
-  EXPECT_GT(out.at(20, 30), out.at(20, 33));
-  EXPECT_LT(out.at(20, 30), 99);  // a hard cut would leave 100 here
-  for (int x = 0; x + 1 < 64; ++x) EXPECT_GE(out.at(20, x), out.at(20, x + 1)) << x;
-}
-
 }  // namespace
 }  // namespace pomona

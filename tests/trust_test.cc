@@ -84,6 +84,22 @@ TEST(Trust, ConfidenceTellsRightFromWrong) {
   EXPECT_GT(unsure.sigma / unsure.pixels, sure.sigma / sure.pixels);
 }
 
+// Any disparity matches as well as any other, so none may be trusted, whatever else agrees.
+TEST(Trust, NothingIsCertainWhereNothingIsToBeSeen) {
+  for (const int value : {0, 120, 255}) {
+    const cv::Mat view(120, 200, CV_8UC3, cv::Scalar::all(value));
+    for (const char* preset : {"fast", "balanced", "quality", "paper"})
+      for (const OutputMode mode : {OutputMode::kSparse, OutputMode::kDense}) {
+        const StereoResult r = computeDisparity(view, view, optionsOf(preset, mode));
+        double highest = 0, least_sigma_px = 0;
+        cv::minMaxLoc(r.confidence, nullptr, &highest);
+        cv::minMaxLoc(r.sigma_px, &least_sigma_px, nullptr, nullptr, nullptr, r.sigma_px == r.sigma_px);
+        EXPECT_LE(highest, 0.6) << preset << ' ' << value;
+        EXPECT_GE(least_sigma_px, 3) << preset << ' ' << value;
+      }
+  }
+}
+
 TEST(Trust, MinConfidenceLeavesTheSurest) {
   const RenderedPair pair = noisyScene("spheres");
   Options o = optionsOf("balanced", OutputMode::kSparse);

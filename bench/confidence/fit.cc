@@ -4,7 +4,9 @@
 // contrast, and the views get noise, blur, a difference of gain, and lines that are off by a fraction of a
 // pixel, as calibrations leave them. Truth is exact. Presets are pooled. The measured pixels are counted in
 // cells of equal features; a logistic regression gives the log odds of being right to within a pixel, a
-// linear one the logarithm of the error that 68.3 % of a cell's pixels keep.
+// linear one the logarithm of the error that 68.3 % of a cell's pixels keep. Pixels at which no disparity
+// stands out are of two kinds, those the light left little of and those with nothing on them: they are taken
+// in equal parts from these scenes and from noiseless ones with bare surfaces, which serve for nothing else.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -47,6 +49,7 @@ struct Cell {
 struct Cells {
   std::map<int, Cell> measured;  // by the code of their features
   std::map<PixelState, Cell> filled;
+  Cell bare;  // measured, but nothing stood out
 };
 
 SceneDescription fadedScene(const char* name, std::uint64_t seed, cv::RNG& random) {
@@ -56,6 +59,14 @@ SceneDescription fadedScene(const char* name, std::uint64_t seed, cv::RNG& rando
     surface.paint.second_bgr =
         surface.paint.first_bgr + contrast * (surface.paint.second_bgr - surface.paint.first_bgr);
   }
+  return scene;
+}
+
+/// Half of the surfaces show nothing at all, like an overexposed sky.
+SceneDescription bareScene(const char* name, std::uint64_t seed) {
+  SceneDescription scene = namedScene(name, seed, 640, 400, 56);
+  for (std::size_t i = 0; i < scene.surfaces.size(); i += 2)
+    scene.surfaces[i].paint.second_bgr = scene.surfaces[i].paint.first_bgr;
   return scene;
 }
 
@@ -102,7 +113,9 @@ void collect(const char* preset, const cv::Mat& left, const cv::Mat& right, cons
       const float error = std::fabs(maps.disparity.row(y)[x] - truth.at<float>(y, x));
       if (std::isnan(error)) continue;
       const auto state = static_cast<PixelState>(maps.state.row(y)[x]);
-      if (state == PixelState::kMeasured) {
+      if (state == PixelState::kMeasured && TrustFeatures::of(codes[x % kMatchChunk]).bare) {
+        cells.bare.errors.push_back(error);
+      } else if (state == PixelState::kMeasured) {
         cells.measured[codes[x % kMatchChunk]].errors.push_back(error);
       } else {
         cells.filled[state].errors.push_back(error);
@@ -111,13 +124,13 @@ void collect(const char* preset, const cv::Mat& left, const cv::Mat& right, cons
 }
 
 Terms termsOf(int code) {
-  const auto [margin, curvature, residual] = TrustFeatures::of(code);
-  const bool none = residual == kTrustSteps - 1;
+  const TrustFeatures f = TrustFeatures::of(code);
+  const bool none = f.residual == kTrustSteps - 1;
   return {1,
-          static_cast<double>(margin),
-          static_cast<double>(margin * margin),
-          static_cast<double>(curvature),
-          none ? 0.0 : residual,
+          static_cast<double>(f.margin),
+          static_cast<double>(f.margin * f.margin),
+          static_cast<double>(f.curvature),
+          none ? 0.0 : f.residual,
           none ? 1.0 : 0.0};
 }
 
@@ -174,8 +187,23 @@ void print(const char* name, const Terms& fit) {
   for (const double& term : fit) std::printf("%.5g%s", term, &term == &fit.back() ? "}\n" : ", ");
 }
 
+/// As many pixels of one as of the other, the rest evenly left out.
+Cell halfOfEach(const Cell& a, const Cell& b) {
+  const std::size_t count = std::min(a.errors.size(), b.errors.size());
+  Cell both;
+  for (const Cell* cell : {&a, &b})
+    for (std::size_t i = 0; i < count; ++i)
+      both.errors.push_back(cell->errors[i * cell->errors.size() / count]);
+  return both;
+}
+
+void print(const char* kind, Cell cell) {
+  std::printf("%-24s %8.0f pixels: confidence %.2f, sigma %.2f px\n", kind, cell.count(),
+              cell.right() / cell.count(), cell.sigma());
+}
+
 int fit() {
-  Cells cells, paper;
+  Cells cells, paper, bare;
   cv::RNG random(7);
   for (const char* name : {"planes", "spheres", "boxes", "trees"})
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
@@ -186,14 +214,16 @@ int fit() {
                                        random.uniform(0.9, 1.1), blur_px, noise, random);
       for (const char* preset : {"fast", "balanced", "quality"})
         collect(preset, left, right, pair.left.disparity, cells);
+      const RenderedPair half_bare = render(bareScene(name, seed));
+      for (const char* preset : {"fast", "balanced", "quality"})
+        collect(preset, half_bare.left.image, half_bare.right.image, half_bare.left.disparity, bare);
       collect("paper", left, right, pair.left.disparity, paper);
     }
   print("kLogOdds", fitLogOdds(cells.measured));
   print("kLogSigma", fitLogSigma(cells.measured));
   cells.filled[PixelState::kFilledCoarse] = paper.filled[PixelState::kFilledCoarse];
-  for (auto& [state, cell] : cells.filled)
-    std::printf("%-24s %8.0f pixels: confidence %.2f, sigma %.2f px\n", name(state).data(), cell.count(),
-                cell.right() / cell.count(), cell.sigma());
+  for (auto& [state, cell] : cells.filled) print(name(state).data(), cell);
+  print("nothing stands out", halfOfEach(cells.bare, bare.bare));
   return 0;
 }
 

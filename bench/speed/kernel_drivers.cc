@@ -111,12 +111,8 @@ void runScaling(KernelMaterial& m, const KernelTables& tables) {
 }
 
 void runFusion(KernelMaterial& m, const KernelTables& tables) {
-  m.fusion_weight.resize(m.size.width, m.size.height);
-  for (int y = 0; y < m.size.height; ++y) std::fill_n(m.fusion_weight.row(y), m.size.width, 0.5f);
   const int levels = m.options.completion.pyramid_levels;
   fuseEqual(m.dense.view(), m.dense.view(), levels, m.disparity.view(), m.fusion, tables.pyramid, 1);
-  fuseWeighted(m.dense.view(), m.dense.view(), m.fusion_weight.view(), levels, m.disparity.view(), m.fusion,
-               tables.pyramid, 1);
 }
 
 void runFilling(KernelMaterial& m, const KernelTables& tables) {

@@ -55,7 +55,7 @@ struct KernelMaterial {
   // Outputs and scratch.
   SgmMatcher matcher;
   MatchMaps matched;
-  Image<float> disparity, quarter_disparity, fusion_weight;
+  Image<float> disparity, quarter_disparity;
   Image<std::uint8_t> state, small;
   Image<std::uint16_t> small16;
   MatchMaps trusted;

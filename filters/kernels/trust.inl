@@ -17,7 +17,7 @@ inline void trustCodesOf(const TrustPixels& p, std::uint16_t* __restrict codes) 
   for (int i = 0; i < count; ++i) {
     const float residual = 8 * difference[i], margin = scale * margins[i], curvature = scale * curvatures[i];
     const int r = static_cast<int>((column[i] >= 0) & (residual < kLast) ? residual : kLast);
-    const int m = static_cast<int>(margin < kLast ? margin : kLast);
+    const int m = static_cast<int>(margin < kLast - 1 ? margin : kLast - 1) + (margin >= 0.5f);
     const int c = static_cast<int>(curvature < kLast ? curvature : kLast);
     codes[i] = static_cast<std::uint16_t>((m * kTrustSteps + c) * kTrustSteps + r);
   }

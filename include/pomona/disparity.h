@@ -29,11 +29,12 @@ struct StereoResult {
   /// sigma of a normal distribution; NaN where the disparity is unknown. Filled pixels have larger ones.
   cv::Mat sigma_px;
   /// Vertical offset y_right - y_left between the views, which should be 0: median over some hundred points,
-  /// and the largest anywhere in the image, signless. Beyond 0.5 px matching degrades without other notice:
-  /// the camera wants a new calibration. NaN where Options::row_check is off or too few points could be
-  /// matched.
+  /// and the largest anywhere in the image, signless. Beyond 0.5 px the camera wants a new calibration. NaN
+  /// where Options::row_check is off or too few points could be matched.
   float row_offset_px = std::numeric_limits<float>::quiet_NaN();
   float row_error_px = std::numeric_limits<float>::quiet_NaN();
+  /// Whether the right view was moved by that offset before it was matched (Options::align_rows).
+  bool rows_aligned = false;
   std::vector<StageTiming> timings;  ///< in the order the stages ran
 
   /// Whether the rows of the views are known not to match.

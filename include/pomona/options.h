@@ -136,6 +136,9 @@ struct Options {
 
   /// Measure the vertical offset between the views (StereoResult::row_offset_px): about 1 ms.
   bool row_check = true;
+  /// Where it finds one of 0.1 px or more that its points agree on, move the rows of the right view by it
+  /// before matching (StereoResult::rows_aligned).
+  bool align_rows = true;
 
   MemoryMode memory = MemoryMode::kAutomatic;
   int threads = 0;  ///< worker threads; 0: one per available processor; at most 1024

@@ -1,4 +1,4 @@
-// Rows of Burt & Adelson's REDUCE and EXPAND, and of blending two pyramids.
+// Rows of Burt & Adelson's REDUCE and EXPAND, and of averaging two pyramids.
 
 namespace pomona {
 namespace {
@@ -53,10 +53,6 @@ void addExpandedColumn(const float* above, const float* middle, const float* bel
 
 void average(const float* other, int n, float* __restrict inout) {
   for (int x = 0; x < n; ++x) inout[x] = 0.5f * (inout[x] + other[x]);
-}
-
-void blend(const float* other, const float* weight, int n, float* __restrict inout) {
-  for (int x = 0; x < n; ++x) inout[x] = weight[x] * inout[x] + (1.0f - weight[x]) * other[x];
 }
 
 }  // namespace

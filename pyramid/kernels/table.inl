@@ -21,7 +21,6 @@ constexpr PyramidKernels kTable = {
     .expandRow = expandRow,
     .addExpandedColumn = addExpandedColumn,
     .average = average,
-    .blend = blend,
     .advanceRays = advanceRays,
     .difference1 = difference1,
     .largestDifference3 = largestDifference3,

@@ -104,20 +104,6 @@ inline std::vector<Map> laplacianPyramid(const Map& map, int levels) {
   return result;
 }
 
-inline Map fuseWeighted(const Map& a, const Map& b, const Map& weight, int levels) {
-  const std::vector<Map> pa = laplacianPyramid(a, levels), pb = laplacianPyramid(b, levels);
-  const std::vector<Map> pw = gaussianPyramid(weight, levels);
-  Map result(1, 1);
-  for (int i = static_cast<int>(pa.size()) - 1; i >= 0; --i) {
-    Map sum = i + 1 < static_cast<int>(pa.size()) ? expand(result, pa[i].width, pa[i].height)
-                                                  : Map(pa[i].width, pa[i].height);
-    for (std::size_t k = 0; k < sum.values.size(); ++k)
-      sum.values[k] += pw[i].values[k] * pa[i].values[k] + (1 - pw[i].values[k]) * pb[i].values[k];
-    result = sum;
-  }
-  return result;
-}
-
 /// Hole filling as its header tells it, marching along every ray.
 struct HoleFill {
   using Value = std::function<float(int, int)>;
