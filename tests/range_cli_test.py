@@ -157,7 +157,8 @@ class Range(unittest.TestCase):
         self.refuse_range("middle: told to fail", "--set", "fails=error")
         self.refuse_range("no std::exception", "--set", "fails=number")
         self.refuse_range("belongs to object 1", "--set", "fails=object")
-        self.refuse("--plugin is 'muddle'; allowed: middle", "range", *self.pair(), "--plugin", "muddle")
+        self.refuse("--plugin is 'muddle'; allowed: logo-range, middle, region-sift, segment-recognition, sobel-sift",
+                    "range", *self.pair(), "--plugin", "muddle")
         self.refuse("--calib or --rig", "range", *self.pair()[:2], "--plugin", "middle", status=2)
 
 
