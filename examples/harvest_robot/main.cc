@@ -7,7 +7,6 @@
 //
 // Environment: HARVEST_NEAREST_M, HARVEST_FARTHEST_M (working range, default 0.57 to 1.98).
 #include <pomona/engine.h>
-#include <pomona/measure.h>
 
 #include <algorithm>
 #include <chrono>
@@ -22,60 +21,38 @@
 #include <vector>
 
 #include "pair_stream.h"
+#include "picking_list.h"
 
 namespace {
 
-struct Pick {
-  cv::Rect box;
-  pomona::ObjectMeasurement where;
-};
-
-double fromEnvironment(const char* name, double otherwise) {
+double metresFromEnvironment(const char* name, double otherwise) {
   const char* text = std::getenv(name);
-  return text ? std::atof(text) : otherwise;
+  if (!text) return otherwise;
+  char* end = nullptr;
+  const double metres = std::strtod(text, &end);
+  if (end == text || *end != '\0' || !std::isfinite(metres) || metres <= 0)
+    throw std::runtime_error(cv::format("%s is '%s'; allowed: metres, above 0", name, text));
+  return metres;
 }
 
 // The working range fixes the disparities to search: the fewer, the faster.
 pomona::Options optionsFor(const pomona::StereoCalibration& c, double nearest_m, double farthest_m) {
   pomona::Options options = pomona::Options::preset("fast");
   options.mode = pomona::OutputMode::kSparse;  // what is only guessed need not be
+  constexpr int kMostDisparities = 1024;       // that the engine searches
+  const auto refuse = [&](const std::string& allowed) {
+    throw std::runtime_error(cv::format("HARVEST_NEAREST_M to HARVEST_FARTHEST_M is %g to %g m; allowed: %s",
+                                        nearest_m, farthest_m, allowed.c_str()));
+  };
+  if (nearest_m >= farthest_m) refuse("the smaller one first");
   const double focal_baseline = c.focal_px * c.baseline_m;
   options.min_disparity = static_cast<int>(std::floor(focal_baseline / farthest_m - c.doffs_px));
   options.num_disparities =
       static_cast<int>(std::ceil(focal_baseline / nearest_m - c.doffs_px)) - options.min_disparity + 1;
+  if (options.num_disparities > kMostDisparities)
+    refuse(cv::format("at most %d disparities between them, here %d", kMostDisparities,
+                      options.num_disparities));
   return options;
-}
-
-// Red to yellow, not pale and not dark, in one piece that is large enough. OpenCV's hue counts 2 degrees.
-std::vector<std::vector<cv::Point>> findRipe(const cv::Mat& bgr) {
-  constexpr double kSmallest_px2 = 300;
-  cv::Mat hsv, red, crimson, ripe;
-  cv::cvtColor(bgr, hsv, cv::COLOR_BGR2HSV);
-  cv::inRange(hsv, cv::Scalar(0, 120, 50), cv::Scalar(22, 255, 255), red);
-  cv::inRange(hsv, cv::Scalar(172, 120, 50), cv::Scalar(180, 255, 255), crimson);
-  cv::bitwise_or(red, crimson, ripe);
-  cv::morphologyEx(ripe, ripe, cv::MORPH_OPEN, cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5}));
-
-  std::vector<std::vector<cv::Point>> contours;
-  cv::findContours(ripe, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
-  std::erase_if(contours, [](const auto& contour) { return cv::contourArea(contour) < kSmallest_px2; });
-  return contours;
-}
-
-std::vector<Pick> pickingList(const pomona::StereoResult& result,
-                              const pomona::StereoCalibration& calibration, const cv::Mat& bgr) {
-  pomona::MeasureOptions apples;
-  apples.radius_m = 0.038;
-  apples.radius_sigma_m = 0.006;
-  std::vector<Pick> picks;
-  for (const auto& contour : findRipe(bgr)) {
-    const pomona::Polygon outline(contour.begin(), contour.end());
-    picks.push_back({cv::boundingRect(contour), pomona::measureObject(result, calibration, outline, apples)});
-  }
-  std::sort(picks.begin(), picks.end(), [](const Pick& a, const Pick& b) {
-    return a.where.ok() != b.where.ok() ? a.where.ok() : a.where.distance_m < b.where.distance_m;
-  });
-  return picks;
 }
 
 void print(int frame, const std::vector<Pick>& picks) {
@@ -106,8 +83,8 @@ cv::Mat draw(const cv::Mat& bgr, const std::vector<Pick>& picks) {
 int run(const std::string& rig_path, const std::string& source, const std::string& drawing) {
   const pomona::StereoRig rig = pomona::readRig(rig_path);
   pomona::StereoEngine engine(
-      optionsFor(rectificationOf(rig).calibration, fromEnvironment("HARVEST_NEAREST_M", 0.57),
-                 fromEnvironment("HARVEST_FARTHEST_M", 1.98)),
+      optionsFor(rectificationOf(rig).calibration, metresFromEnvironment("HARVEST_NEAREST_M", 0.57),
+                 metresFromEnvironment("HARVEST_FARTHEST_M", 1.98)),
       rig);
   const auto stream = PairStream::open(source);
   std::vector<double> milliseconds;
@@ -119,7 +96,9 @@ int run(const std::string& rig_path, const std::string& source, const std::strin
     milliseconds.push_back(
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     print(frame, picks);
-    if (result.rowsAreOff()) std::printf("frame %d  warning: the rig wants a new calibration\n", frame);
+    if (result.rowsAreOff())
+      std::printf("frame %d  warning: the right view is %+.1f rows off%s: the rig wants a new calibration\n",
+                  frame, result.row_offset_px, result.rows_aligned ? ", and was moved" : "");
     if (drawing == "window") {
       cv::imshow("harvest", draw(engine.leftView(), picks));
       if (cv::waitKey(1) == 27) break;  // escape

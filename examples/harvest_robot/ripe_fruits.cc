@@ -1,0 +1,81 @@
+#include "ripe_fruits.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+namespace {
+
+// Red to yellow, not pale and not dark. OpenCV's hue counts 2 degrees.
+cv::Mat ripeMask(const cv::Mat& bgr) {
+  cv::Mat hsv, red, crimson, ripe;
+  cv::cvtColor(bgr, hsv, cv::COLOR_BGR2HSV);
+  cv::inRange(hsv, cv::Scalar(0, 120, 50), cv::Scalar(30, 255, 255), red);
+  cv::inRange(hsv, cv::Scalar(172, 120, 50), cv::Scalar(180, 255, 255), crimson);
+  cv::bitwise_or(red, crimson, ripe);
+  cv::morphologyEx(ripe, ripe, cv::MORPH_OPEN, cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5}));
+  return ripe;
+}
+
+struct Disc {
+  cv::Point center;
+  float radius_px;
+  float toRim(cv::Point p) const { return static_cast<float>(cv::norm(p - center)) - radius_px; }
+};
+
+// The largest discs inside of the mask whose centres lie in none of the others.
+std::vector<Disc> discsIn(const cv::Mat& mask) {
+  constexpr float kSmallest_px = 4;
+  cv::Mat inside_px, largest_px, peaks;
+  cv::distanceTransform(mask, inside_px, cv::DIST_L2, cv::DIST_MASK_5);
+  cv::dilate(inside_px, largest_px, cv::Mat::ones(5, 5, CV_8U));
+  cv::findNonZero((inside_px == largest_px) & (inside_px >= kSmallest_px), peaks);
+  std::vector<Disc> candidates, discs;
+  for (const cv::Point& peak : cv::Mat_<cv::Point>(peaks))
+    candidates.push_back({peak, inside_px.at<float>(peak)});
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Disc& a, const Disc& b) { return a.radius_px > b.radius_px; });
+  for (const Disc& c : candidates)
+    if (std::none_of(discs.begin(), discs.end(), [&](const Disc& d) { return d.toRim(c.center) < 0; }))
+      discs.push_back(c);
+  return discs;
+}
+
+// One part for each disc: what is nearest to its rim.
+std::vector<Contour> cut(const Contour& piece) {
+  const cv::Rect tight = cv::boundingRect(piece);
+  const cv::Rect box(tight.x - 1, tight.y - 1, tight.width + 2,
+                     tight.height + 2);  // with a rim that is outside
+  cv::Mat1b mask = cv::Mat1b::zeros(box.size());
+  cv::fillPoly(mask, std::vector<Contour>{piece}, 255, cv::LINE_8, 0, -box.tl());
+  const std::vector<Disc> discs = discsIn(mask);
+  if (discs.size() < 2) return {piece};
+  cv::Mat1i part_of(mask.size(), -1);
+  std::vector<cv::Point> pixels;
+  cv::findNonZero(mask, pixels);
+  for (const cv::Point& pixel : pixels) {
+    const auto nearest = std::min_element(discs.begin(), discs.end(), [&](const Disc& a, const Disc& b) {
+      return a.toRim(pixel) < b.toRim(pixel);
+    });
+    part_of(pixel) = static_cast<int>(nearest - discs.begin());
+  }
+  std::vector<Contour> parts, contours;
+  for (int i = 0; i < static_cast<int>(discs.size()); ++i) {
+    cv::findContours(part_of == i, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE, box.tl());
+    parts.insert(parts.end(), contours.begin(), contours.end());
+  }
+  return parts;
+}
+
+}  // namespace
+
+std::vector<Contour> ripeOutlines(const cv::Mat& bgr) {
+  constexpr double kSmallest_px2 = 100;
+  const auto isSmall = [](const Contour& contour) { return cv::contourArea(contour) < kSmallest_px2; };
+  std::vector<Contour> pieces, outlines;
+  cv::findContours(ripeMask(bgr), pieces, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+  std::erase_if(pieces, isSmall);
+  for (const Contour& piece : pieces)
+    for (const Contour& part : cut(piece))
+      if (!isSmall(part)) outlines.push_back(part);
+  return outlines;
+}
