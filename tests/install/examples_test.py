@@ -5,6 +5,7 @@ Usage: examples_test.py POMONA HARVEST_ROBOT COMPUTE_DISPARITY, all paths of pro
 
 import array
 import csv
+import json
 import math
 import os
 import re
@@ -20,6 +21,23 @@ PICK = re.compile(r"frame (\d+)  box [\d,]+  ([\d.]+) \+- ([\d.]+) m  centre \((
 
 def run(*arguments, **options):
     return subprocess.run(arguments, check=True, capture_output=True, text=True, timeout=300, **options).stdout
+
+
+def refusal(*arguments, **environment):
+    done = subprocess.run(arguments, capture_output=True, text=True, timeout=300, env={**os.environ, **environment})
+    assert done.returncode == 1, (done.returncode, done.stderr)
+    return done.stderr
+
+
+def distances_once(picks, fruits):
+    """Which fruits the picks' centres lie in, and how far off each distance is; asserts that none lies elsewhere."""
+    found = {}
+    for _, distance, _, x, y, z in picks:
+        inside = [fruit for fruit in fruits if math.dist(fruit["center_m"], (float(x), float(y), float(z))) <
+                  fruit["radius_m"] * 0.7]
+        assert len(inside) == 1 and inside[0]["id"] not in found, picks
+        found[inside[0]["id"]] = abs(float(distance) / inside[0]["near_distance_m"] - 1)
+    return found
 
 
 def read_pfm(path):
@@ -70,6 +88,22 @@ with tempfile.TemporaryDirectory() as folder:
     assert statistics.median(errors) < 0.01, errors
     assert "frames per second, latency p50" in text, text
     assert sorted(os.listdir(drawn)) == ["frame0000.png", "frame0001.png"]
+
+    # Fruits that touch, of one colour and behind leaves: each is on the list, and once.
+    orchard = os.path.join(folder, "orchard")
+    run(POMONA, "render", "orchard", "--seed", "11", "--distance", "1..1.2", "-o", orchard)
+    for side, view in (("left", "im0.png"), ("right", "im1.png")):
+        os.rename(os.path.join(orchard, view), os.path.join(orchard, side + ".png"))
+    with open(os.path.join(orchard, "fruits.json"), encoding="ascii") as file:
+        fruits = json.load(file)["fruits"]
+    found = distances_once(PICK.findall(run(HARVEST, os.path.join(orchard, "calib.txt"), orchard)), fruits)
+    assert {fruit["id"] for fruit in fruits if fruit["visible_share"] >= 0.3} <= found.keys(), found
+    assert max(found.values()) < 0.01, found
+
+    for nearest, part in (("abc", "HARVEST_NEAREST_M is 'abc'"), ("3", "HARVEST_NEAREST_M to HARVEST_FARTHEST_M is 3 to"),
+                          ("0.001", "at most 1024 disparities")):
+        assert part in refusal(HARVEST, calibration, frames, HARVEST_NEAREST_M=nearest), part
+    assert "compute_disparity: left is an empty image" in refusal(COMPUTE, "absent.png", "absent.png", "out.png")
 
     out = os.path.join(folder, "disparity.png")
     run(COMPUTE, os.path.join(frames, "left0.png"), os.path.join(frames, "right0.png"), out)
