@@ -64,7 +64,9 @@ void printSummary(const ComputeArguments& arguments, const SearchRange& range, c
   if (!std::isnan(result.row_offset_px))
     print("rows      right view %+.2f px, %.2f px where it is worst%s%s", result.row_offset_px,
           result.row_error_px, result.rows_aligned ? "; matched after moving it" : "",
-          result.rowsAreOff() ? ": warning: the views are not aligned; see pomona check" : "");
+          !result.rowsAreOff()  ? ""
+          : result.rows_aligned ? "; warning: the cameras want a new calibration"
+                                : "; warning: the views are not aligned; see pomona check");
   print("time      %.1f ms (%s)", milliseconds, arguments.preset.c_str());
   if (arguments.timings)
     for (const StageTiming& timing : result.timings)

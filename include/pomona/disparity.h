@@ -37,7 +37,7 @@ struct StereoResult {
   bool rows_aligned = false;
   std::vector<StageTiming> timings;  ///< in the order the stages ran
 
-  /// Whether the rows of the views are known not to match.
+  /// Whether the rows, as they came, do not match: the rig wants a new calibration, even if `rows_aligned`.
   bool rowsAreOff() const { return std::abs(row_offset_px) > 0.5f || row_error_px > 1.0f; }
   PixelState stateAt(int y, int x) const { return static_cast<PixelState>(state.at<std::uint8_t>(y, x)); }
 };
