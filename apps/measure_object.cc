@@ -15,6 +15,7 @@
 
 #include "apps/compute_files.h"
 #include "apps/muted_stream.h"
+#include "apps/print.h"
 #include "apps/search_range.h"
 #include "apps/verbs.h"
 #include "datasets/input_file.h"
@@ -156,10 +157,9 @@ std::string lineOf(const Json& entry) {
     line += text.data();
   }
   if (entry.contains("azimuth_rad")) {
-    std::snprintf(text.data(), text.size(), ", %.2f deg right, %.2f deg up, %d px",
-                  degrees(number("azimuth_rad")), degrees(number("elevation_rad")),
-                  entry["support_px"].get<int>());
-    line += text.data();
+    line += ", " + angleText(degrees(number("azimuth_rad")), "right", "left") + ", " +
+            angleText(degrees(number("elevation_rad")), "up", "down") + ", " +
+            std::to_string(entry["support_px"].get<int>()) + " px";
   } else {
     line += ", " + entry["state"].get<std::string>();
   }

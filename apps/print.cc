@@ -1,6 +1,7 @@
 #include "apps/print.h"
 
 #include <array>
+#include <cmath>
 #include <cstdarg>
 #include <cstdio>
 #include <iostream>
@@ -14,6 +15,13 @@ void print(const char* format, ...) {
   std::vsnprintf(line.data(), line.size(), format, values);
   va_end(values);
   std::cout << line.data() << '\n';
+}
+
+std::string angleText(double degrees, const char* positive, const char* negative) {
+  std::array<char, 64> text;
+  std::snprintf(text.data(), text.size(), "%.2f deg %s", std::abs(degrees),
+                degrees < 0 ? negative : positive);
+  return text.data();
 }
 
 }  // namespace pomona

@@ -97,7 +97,7 @@ void printObject(const SparseObject& object) {
     line += withSigma(object.distance_m, object.sigma_m) + " m";
   else
     line += "found, but not ranged";
-  if (std::isfinite(object.bearing_deg)) line += ", " + withSigma(object.bearing_deg, NAN) + " deg right";
+  if (std::isfinite(object.bearing_deg)) line += ", " + angleText(object.bearing_deg, "right", "left");
   print("%s, support %d", line.c_str(), object.support);
 }
 

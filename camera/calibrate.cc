@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <opencv2/calib3d.hpp>
+#include <sstream>
 #include <stdexcept>
 
 #include "camera/deviations.h"
@@ -52,8 +54,9 @@ double median(std::vector<double> values) {
 }
 
 std::string shown(double value, int decimals) {
-  std::string text = std::to_string(value);
-  return text.substr(0, text.find('.') + 1 + static_cast<std::size_t>(decimals));
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(decimals) << value;
+  return text.str();
 }
 
 // |y_left - y_right| of every corner of a view, rectified.
@@ -143,7 +146,8 @@ void addWarnings(const std::vector<Sighting>& sightings, CalibrationReport& repo
                            [&](const Sighting& other) { return isLike(sightings[i], other); });
   if (repeats > 0)
     warnings.push_back(std::to_string(repeats) +
-                       " views repeat others: board in the same place within 3 %, turned "
+                       (repeats == 1 ? " view repeats another" : " views repeat others") +
+                       ": board in the same place within 3 %, turned "
                        "by less than 3 degrees");
   if (largestTilt(sightings) < kEnoughTilt)
     warnings.push_back(
@@ -151,8 +155,7 @@ void addWarnings(const std::vector<Sighting>& sightings, CalibrationReport& repo
         "told apart well");
   const auto covered = [&](const char* side, double share) {
     if (share < kEnoughCoverage)
-      warnings.push_back(std::string("corners in only ") + std::to_string(static_cast<int>(100 * share)) +
-                         " % of the " + side +
+      warnings.push_back(std::string("corners in only ") + shown(100 * share, 0) + " % of the " + side +
                          " image: the lens is guessed elsewhere (see the coverage picture)");
   };
   covered("left", report.left_coverage);

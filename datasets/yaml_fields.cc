@@ -17,6 +17,17 @@ int lineOf(const YAML::Node& node) {
   return node.Mark().line + 1;
 }
 
+// "4 values (-458.6, 457.3, 367.2, 248.4)": short lists are told value by value.
+std::string listText(const YAML::Node& list) {
+  constexpr std::size_t kMostShown = 8;
+  std::string values;
+  for (const YAML::Node& item : list) {
+    if (!item.IsScalar() || list.size() > kMostShown) return std::to_string(list.size()) + " values";
+    values += (values.empty() ? "" : ", ") + item.Scalar();
+  }
+  return std::to_string(list.size()) + " values (" + printable(values) + ")";
+}
+
 std::string sizeText(int rows, int cols) {
   return std::to_string(rows) + " x " + std::to_string(cols);
 }
@@ -136,7 +147,7 @@ std::vector<double> YamlFields::numbers(const std::string& key) const {
 void YamlFields::fail(const std::string& key, const std::string& allowed) const {
   const YAML::Node node = get(key);
   const std::string value = node.IsScalar()     ? quoted(node.Scalar())
-                            : node.IsSequence() ? std::to_string(node.size()) + " values"
+                            : node.IsSequence() ? listText(node)
                             : node.IsMap()      ? "a matrix or map"
                                                 : "nothing";
   failAtLine(path_, std::max(1, lineOf(node)), name_ + key + " is " + value + "; allowed: " + allowed);

@@ -218,7 +218,7 @@ TEST(Calibrate, WarnsOfWhatMakesItWeak) {
   views.back().name = "again";
   const CalibrationReport weak = calibrateStereo(views, {1280, 720}, {9, 6, 0.025});
   EXPECT_TRUE(warnsOf(weak, "only 7 views"));
-  EXPECT_TRUE(warnsOf(weak, "1 views repeat others"));
+  EXPECT_TRUE(warnsOf(weak, "1 view repeats another: board"));
   const CalibrationReport scattered =
       calibrateStereo(idealViews(knownRig(), 12, 1, 6), {1280, 720}, {9, 6, 0.025});
   EXPECT_TRUE(warnsOf(scattered, "rms "));
@@ -254,7 +254,9 @@ TEST(Calibrate, RefusesWhatCannotBe) {
                    }),
                    "square_m");
   const cv::Mat blank(100, 100, CV_8UC1, cv::Scalar(90));
-  expectContains(findBoard("v", blank, blank, {9, 6, 0.02}).rejected, "either image");
+  const cv::Mat bright(100, 100, CV_8UC1, cv::Scalar(200));
+  expectContains(findBoard("v", blank, bright, {9, 6, 0.02}).rejected, "either image");
+  expectContains(findBoard("v", blank, blank.clone(), {9, 6, 0.02}).rejected, "are the same picture");
   expectContains(findBoard("v", blank, blank.rowRange(0, 50), {9, 6, 0.02}).rejected, "differ in size");
   expectContains(findBoard("v", blank, {}, {9, 6, 0.02}).rejected, "no 8-bit");
 }

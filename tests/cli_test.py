@@ -203,6 +203,12 @@ class GoodInput(CommandTest):
         self.assertGreater(counts[0], 96 * 64 // 2)
         self.assertEqual(counts[0], counts[1])
 
+    def test_rows_that_do_not_match_are_said(self):
+        self.assert_accepted(self.run_command("render", "boxes", "--size", "480x320", "--right-shift", "2", "-o", "off"))
+        lines = self.run_command("compute", "off/im0.png", "off/im1.png", "-o", "off.pfm").stdout.splitlines()
+        rows = next(line for line in lines if line.startswith("rows"))
+        self.assertRegex(rows, "right view -[12][.][0-9]+ px.*; matched after moving it; warning: .* new calibration$")
+
     def test_measure_says_how_far(self):
         self.assert_accepted(self.run_command("render", "boxes", "--seed", "2", "--size", "320x240", "--disparities",
                                               "48", "-o", "boxes"))
@@ -232,6 +238,14 @@ class GoodInput(CommandTest):
         lines = self.run_command(*arguments).stdout.splitlines()
         self.assertEqual(len(lines), 4)
         self.assertTrue(lines[0].startswith(f"box {box}: {entries[0]['distance_m']:.4f} +- "), lines[0])
+        azimuth, elevation = (math.degrees(entries[0][key]) for key in ("azimuth_rad", "elevation_rad"))
+        self.assertIn(f", {abs(azimuth):.2f} deg {'left' if azimuth < 0 else 'right'}, "
+                      f"{abs(elevation):.2f} deg {'down' if elevation < 0 else 'up'}, ", lines[0])
+        corners = self.run_command(*views, *(f"--box={width * i // 4 - 15},{height * j // 4 - 15},31,31"
+                                             for i in (1, 3) for j in (1, 3)), "--shape", "surface").stdout
+        for side in (" deg left", " deg right", " deg up", " deg down"):
+            self.assertIn(side, corners)
+        self.assertNotRegex(corners, "-[0-9.]+ deg")
         outside = self.run_command(*views, "--box", "500,500,9,9")
         self.assertEqual(outside.stdout, "box 500,500,9,9: not measured: the region holds no pixel of the image\n")
 
