@@ -78,6 +78,13 @@ void set(ObjectMeasurement& m, const FittedSphere& sphere, const StereoCalibrati
   m.support_px = static_cast<int>(sphere.support_px);
 }
 
+// By how much a sphere is larger than its region, where nothing else told its size. Something else before the
+// object, taken for its middle, makes it so, and too near.
+double excessOf(const FittedSphere& sphere, const Outline& outline, const StereoCalibration& c) {
+  const double outline_m = outline.radius_px / c.focal_px * cv::norm(sphere.center_m);
+  return std::max(0.0, sphere.radius_m - outline_m);
+}
+
 void set(ObjectMeasurement& m, const FittedSurface& surface, const StereoCalibration& calibration) {
   const double depth_m = calibration.focal_px * calibration.baseline_m / surface.parallax_px;
   setNearPoint(m, pointAt(surface.middle_px.x, surface.middle_px.y, depth_m, calibration));
@@ -129,7 +136,11 @@ ObjectMeasurement measureObject(const StereoResult& result, const StereoCalibrat
     for (const FittedSphere& guess : vote(few, outline, prior, calibration))
       if (const auto sphere = refine(guess, samples, outline, prior, calibration))
         if (!best || sphere->score > best->score) best = sphere;
-    if (best && best->score > kLeastScore) set(m, *best, calibration);
+    if (best && best->score > kLeastScore) {
+      set(m, *best, calibration);
+      if (prior.radius_m <= 0)
+        m.distance_sigma_m = std::hypot(m.distance_sigma_m, excessOf(*best, outline, calibration));
+    }
   } else if (const auto surface = fitSurface(samples)) {
     set(m, *surface, calibration);
   }

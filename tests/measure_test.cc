@@ -201,6 +201,25 @@ TEST(MeasureObject, ARadiusThatIsKnownTellsTheCentreOfASliver) {
   EXPECT_NEAR(known.center_distance_m, cv::norm(kCenter), 3 * known.center_sigma_m);
 }
 
+TEST(MeasureObject, ASphereThatIsLargerThanItsRegionIsLessSure) {
+  World world;
+  world.addSphere(kCenter, kRadius_m);
+  const StereoResult result = world.result();
+  const cv::Rect tight(147, 63, 77, 77);  // 3/4 of its 50 px each way
+  MeasureOptions options;
+  const ObjectMeasurement whole = measureObject(result, camera(), kBox, options);
+  const ObjectMeasurement part = measureObject(result, camera(), tight, options);
+  options.radius_m = kRadius_m;
+  options.radius_sigma_m = 0.004;
+  const ObjectMeasurement known = measureObject(result, camera(), tight, options);
+  ASSERT_TRUE(whole.ok() && part.ok() && known.ok());
+  const double excess_m = part.radius_m * 0.2;
+  ASSERT_GT(part.radius_m, 0.9 * kRadius_m);
+  EXPECT_GT(part.distance_sigma_m, 0.7 * excess_m);
+  EXPECT_LT(whole.distance_sigma_m, 0.5 * part.distance_sigma_m);
+  EXPECT_LT(known.distance_sigma_m, 0.5 * part.distance_sigma_m);
+}
+
 // Errors that neighbours share do not average out as independent ones would: the stated interval must know.
 TEST(MeasureObject, TwoSigmaHoldMostOfTheTime) {
   World world;
