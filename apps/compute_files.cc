@@ -101,12 +101,12 @@ bool sameFile(const std::string& a, const std::string& b) {
   return fs::equivalent(a, b, error) || resolved(a) == resolved(b);
 }
 
-void requireExtension(const OutputKind& kind, const std::string& path) {
-  const std::string extension = extensionOf(path);
-  if (std::find(kind.extensions.begin(), kind.extensions.end(), extension) != kind.extensions.end()) return;
+void requireExtension(const PlannedOutput& output) {
+  const std::vector<std::string>& extensions = output.extensions;
+  if (std::find(extensions.begin(), extensions.end(), extensionOf(output.path)) != extensions.end()) return;
   std::string allowed;
-  for (const std::string& e : kind.extensions) allowed += (allowed.empty() ? "" : ", ") + e;
-  throw std::runtime_error(std::string(kind.option) + " is '" + path + "'; allowed extensions: " + allowed);
+  for (const std::string& e : extensions) allowed += (allowed.empty() ? "" : ", ") + e;
+  throw std::runtime_error(output.option + " is '" + output.path + "'; allowed extensions: " + allowed);
 }
 
 void rectify(const ComputePaths& paths, ComputeInputs& inputs) {
@@ -124,23 +124,29 @@ void rectify(const ComputePaths& paths, ComputeInputs& inputs) {
 
 }  // namespace
 
+void checkOutputs(std::span<const PlannedOutput> outputs, std::span<const std::string> inputs) {
+  std::vector<std::string> taken;
+  for (const PlannedOutput& output : outputs) {
+    const std::string& path = output.path;
+    requireExtension(output);
+    checkOutputPath(path);
+    const auto same = [&](const std::string& other) { return !other.empty() && sameFile(path, other); };
+    if (std::any_of(inputs.begin(), inputs.end(), same))
+      throw std::runtime_error(output.option + " is '" + path + "', which is an input");
+    if (std::any_of(taken.begin(), taken.end(), same))
+      throw std::runtime_error(output.option + " is '" + path + "', which is another output already");
+    taken.push_back(path);
+  }
+}
+
 void checkOutputs(const ComputePaths& paths) {
   const std::string inputs[] = {paths.left,        paths.right, paths.mask,
                                 paths.calibration, paths.rig,   paths.ground_truth};
-  std::vector<std::string> outputs;
-  for (const OutputKind& kind : outputKinds()) {
-    const std::string& path = paths.*kind.path;
-    if (path.empty()) continue;
-    requireExtension(kind, path);
-    checkOutputPath(path);
-    const auto same = [&](const std::string& other) { return !other.empty() && sameFile(path, other); };
-    if (std::any_of(std::begin(inputs), std::end(inputs), same))
-      throw std::runtime_error(std::string(kind.option) + " is '" + path + "', which is an input");
-    if (std::any_of(outputs.begin(), outputs.end(), same))
-      throw std::runtime_error(std::string(kind.option) + " is '" + path +
-                               "', which is another output already");
-    outputs.push_back(path);
-  }
+  std::vector<PlannedOutput> outputs;
+  for (const OutputKind& kind : outputKinds())
+    if (const std::string& path = paths.*kind.path; !path.empty())
+      outputs.push_back({kind.option, path, kind.extensions});
+  checkOutputs(outputs, inputs);
   if (paths.opencv_png && extensionOf(paths.disparity) != ".png")
     throw std::runtime_error("--opencv-png: --output is '" + paths.disparity + "'; allowed extension: .png");
 }

@@ -3,6 +3,7 @@
 
 #include <opencv2/core.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,15 @@ struct ComputeInputs {
   std::optional<StereoCalibration> calibration;
 };
 
+/// An output as the command line names it.
+struct PlannedOutput {
+  std::string option, path;
+  std::vector<std::string> extensions;  ///< allowed ones
+};
+
 /// Refuses outputs of a format that cannot be written, in a place that cannot be written, named twice, or
 /// naming an input. Throws std::runtime_error; called before any work is done.
+void checkOutputs(std::span<const PlannedOutput> outputs, std::span<const std::string> inputs);
 void checkOutputs(const ComputePaths& paths);
 
 /// Reads all inputs and checks that they fit together. Throws std::runtime_error naming the file.

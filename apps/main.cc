@@ -34,6 +34,8 @@ int main(int argc, char** argv) {
   pomona::addEval(app);
   pomona::addCompare(app);
   pomona::addMeasure(app);
+  pomona::addRange(app);
+  pomona::addPlugins(app);
   pomona::addCalibrate(app);
   pomona::addRig(app);
   pomona::addRectify(app);
@@ -44,9 +46,8 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     if (app.get_subcommands().empty())
       return fail(
-          "what to do? compute, measure, eval, compare, calibrate, rig, rectify, check, render or info (see "
-          "pomona "
-          "--help)",
+          "what to do? compute, measure, eval, compare, range, plugins, calibrate, rig, rectify, check, "
+          "render or info (see pomona --help)",
           kBadUsage);
     if (!std::cout.flush()) return fail("standard output: cannot be written", kBadInput);
   } catch (const CLI::ConversionError& e) {

@@ -14,6 +14,7 @@
 #include "datasets/image_file.h"
 #include "datasets/input_file.h"
 #include "datasets/named_scenes.h"
+#include "datasets/rendering/indoor.h"
 #include "datasets/rendering/named_rigs.h"
 #include "datasets/rig_formats.h"
 #include "pomona/rig.h"
@@ -28,6 +29,7 @@ struct RenderArguments {
   int num_disparities = 0;
   OrchardOptions orchard;
   StorefrontOptions storefront;
+  IndoorOptions indoor;
   CameraEffects effects;
   double right_shift_px = 0;
   bool lens = false;
@@ -105,10 +107,12 @@ SceneDescription namedSceneFor(const RenderArguments& arguments) {
 
 void renderToFolder(RenderArguments arguments) {
   if (arguments.scene == "chessboard") return renderChessboards(arguments);
-  const bool has_rig = arguments.scene == "orchard" || arguments.scene == "storefront";
+  const bool has_rig =
+      arguments.scene == "orchard" || arguments.scene == "storefront" || arguments.scene == "indoor";
   if (has_rig && arguments.rig.empty()) arguments.rig = "seed-003";
   if (arguments.lens && arguments.rig.empty()) throw std::invalid_argument("--lens needs --rig");
   arguments.effects.noise_seed = arguments.orchard.seed = arguments.storefront.seed = arguments.seed;
+  arguments.indoor.seed = arguments.seed;
 
   RenderedPair pair;
   std::vector<OutputFile> lists;
@@ -122,6 +126,10 @@ void renderToFolder(RenderArguments arguments) {
     finish(arguments, street.scene);
     pair = render(street.scene, arguments.effects);
     lists = signFiles(street, pair);
+  } else if (arguments.scene == "indoor") {
+    SceneDescription room = indoor(sceneFor(rigOf(arguments)), arguments.indoor).scene;
+    finish(arguments, room);
+    pair = render(room, arguments.effects);
   } else {
     SceneDescription scene = namedSceneFor(arguments);
     finish(arguments, scene);
@@ -140,7 +148,8 @@ void requireKnownOptions(const CLI::App& verb, const std::string& scene) {
   const struct {
     const char* option;
     std::vector<std::string> scenes;
-  } kOnlyFor[] = {{"--distance", {"orchard", "storefront"}},
+  } kOnlyFor[] = {{"--distance", {"orchard", "storefront", "indoor"}},
+                  {"--contrast", {"indoor"}},
                   {"--fruits", {"orchard"}},
                   {"--walls", {"storefront"}},
                   {"--yaw", {"storefront"}},
@@ -162,14 +171,18 @@ void addSceneOptions(CLI::App& verb, RenderArguments& a) {
   const auto setDistance = [&a](const std::string& text) {
     parseRange("--distance", text, a.orchard.nearest_m, a.orchard.farthest_m);
     a.storefront.nearest_m = a.orchard.nearest_m;
-    a.storefront.farthest_m = a.orchard.farthest_m;
+    a.storefront.farthest_m = a.indoor.farthest_m = a.orchard.farthest_m;
+    a.indoor.nearest_m = a.orchard.nearest_m;
   };
   const auto setYaw = [&a](const std::string& text) {
     parseRange("--yaw", text, a.storefront.least_yaw_deg, a.storefront.greatest_yaw_deg);
   };
-  verb.add_option_function<std::string>(
-      "--distance", setDistance,
-      "orchard: depths of the fruits, m (default 0.6..0.75); storefront: of the walls (default 2..5)");
+  verb.add_option_function<std::string>("--distance", setDistance,
+                                        "orchard: depths of the fruits, m (default 0.6..0.75); storefront: "
+                                        "of the walls (default 2..5); indoor: of the boxes "
+                                        "(default 1.8..4)");
+  verb.add_option("--contrast", a.indoor.contrast,
+                  "indoor: by how much floor and wall vary, 8-bit units (default 14)");
   verb.add_option("--fruits", a.orchard.fruits, "orchard: number of fruits (default: 6 to 14)");
   verb.add_option("--walls", a.storefront.walls, "storefront: number of walls (default 3)");
   verb.add_option_function<std::string>("--yaw", setYaw,
@@ -184,7 +197,7 @@ void addCameraOptions(CLI::App& verb, RenderArguments& a) {
   std::string rigs;
   for (const std::string& name : rigNames()) rigs += name + ", ";
   verb.add_option("--rig", a.rig,
-                  rigs + "or a file (see pomona rig); default for orchard and storefront: seed-003");
+                  rigs + "or a file (see pomona rig); default for orchard, storefront and indoor: seed-003");
   verb.add_option("--size", a.size, "WIDTHxHEIGHT; default: the rig's, without one 640x480");
   verb.add_option("--disparities", a.num_disparities, "Largest disparity, about (default: width / 10)");
   verb.add_option("--blur", a.effects.blur_px, "Standard deviation of the blur, pixels");
@@ -204,7 +217,7 @@ void addRender(CLI::App& app) {
   CLI::App* verb =
       app.add_subcommand("render", "Render a made-up scene with exact ground truth (Middlebury layout)");
   const auto arguments = std::make_shared<RenderArguments>();  // lives as long as the callback
-  std::string names = "orchard, storefront, ";
+  std::string names = "orchard, storefront, indoor, ";
   for (const std::string& name : sceneNames()) names += name + ", ";
   verb->add_option("scene", arguments->scene, names + "chessboard")->required();
   verb->add_option("--seed", arguments->seed, "Arrangement, paint and noise (default 1)");

@@ -15,6 +15,8 @@ void addCompute(CLI::App& app);
 void addEval(CLI::App& app);
 void addInfo(CLI::App& app);
 void addMeasure(CLI::App& app);
+void addPlugins(CLI::App& app);
+void addRange(CLI::App& app);
 void addRectify(CLI::App& app);
 void addRender(CLI::App& app);
 void addRig(CLI::App& app);

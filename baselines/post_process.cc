@@ -13,9 +13,12 @@ namespace pomona {
 
 void validate(WindowMaps& maps, SearchRange range, const ValidationOptions& validation, int threads) {
   const int width = maps.disparity.width(), height = maps.disparity.height();
-  if (validation.left_right_px >= 0)
+  if (validation.left_right_px >= 0) {
+    LeftRightScratch scratch;
     leftRightCheck(maps.disparity.view(), maps.state.view(), maps.right_disparity.view(),
-                   validation.left_right_px, range.min, range.count, filterKernels(chooseIsa("")), threads);
+                   validation.left_right_px, range.min, range.count, scratch, filterKernels(chooseIsa("")),
+                   threads);
+  }
   if (validation.speckle_size_px > 0) {
     SpeckleScratch scratch;
     removeSpeckles(maps.disparity.view(), maps.state.view(), validation.speckle_size_px,

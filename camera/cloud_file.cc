@@ -16,6 +16,18 @@ void append(std::string& bytes, const cv::Vec3f& point) {
   for (int axis = 0; axis < 3; ++axis) append(bytes, std::bit_cast<std::uint32_t>(point[axis]));
 }
 
+void appendVertex(std::string& bytes, const cv::Vec3f& point, const cv::Vec3b& bgr) {
+  append(bytes, point);
+  for (int channel = 2; channel >= 0; --channel) bytes.push_back(static_cast<char>(bgr[channel]));
+}
+
+std::string plyOf(std::size_t count, const std::string& vertices) {
+  return "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(count) +
+         "\nproperty float x\nproperty float y\nproperty float z\n"
+         "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n" +
+         vertices;
+}
+
 cv::Mat pointsOf(const cv::Mat& disparity, const cv::Mat& colors, const StereoCalibration& calibration) {
   cv::Mat points = pointsFromDisparity(disparity, calibration);
   if (colors.type() != CV_8UC3 || colors.size() != disparity.size())
@@ -33,15 +45,16 @@ std::string encodePly(const cv::Mat& disparity, const cv::Mat& colors, const Ste
     for (int x = 0; x < points.cols; ++x) {
       const auto& point = points.at<cv::Vec3f>(y, x);
       if (!std::isfinite(point[2])) continue;
-      append(vertices, point);
-      const auto& bgr = colors.at<cv::Vec3b>(y, x);
-      for (int channel = 2; channel >= 0; --channel) vertices.push_back(static_cast<char>(bgr[channel]));
+      appendVertex(vertices, point, colors.at<cv::Vec3b>(y, x));
       ++count;
     }
-  return "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(count) +
-         "\nproperty float x\nproperty float y\nproperty float z\n"
-         "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n" +
-         vertices;
+  return plyOf(count, vertices);
+}
+
+std::string encodePlyPoints(std::span<const CloudPoint> points) {
+  std::string vertices;
+  for (const auto& [point_m, bgr] : points) appendVertex(vertices, point_m, bgr);
+  return plyOf(points.size(), vertices);
 }
 
 std::string encodePcd(const cv::Mat& disparity, const cv::Mat& colors, const StereoCalibration& calibration) {

@@ -11,5 +11,6 @@ file(RELATIVE_PATH POMONA_PREFIX_FROM_PC /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 string(REGEX REPLACE "/$" "" POMONA_PREFIX_FROM_PC ${POMONA_PREFIX_FROM_PC})
 configure_file(cmake/pomona.pc.in pomona.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/pomona-config.cmake ${PROJECT_BINARY_DIR}/pomona-config-version.cmake
+        ${PROJECT_SOURCE_DIR}/cmake/PomonaPlugin.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/pomona)
 install(FILES ${PROJECT_BINARY_DIR}/pomona.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

@@ -33,8 +33,11 @@ Number parseWithin(const KeyedFile& file, std::string_view key, Number smallest,
 
 KeyedFile::KeyedFile(std::string path, std::string text, char separator)
     : path_(std::move(path)), text_(std::move(text)), separator_(separator) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  std::string_view rest = text_;
+  if (rest.starts_with(kByteOrderMark)) rest.remove_prefix(kByteOrderMark.size());
   int line = 1;
-  for (std::string_view rest = text_; !rest.empty(); ++line) {
+  for (; !rest.empty(); ++line) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
     addLine(line, trimmed(rest.substr(0, end)));
     rest.remove_prefix(std::min(end + 1, rest.size()));

@@ -51,6 +51,8 @@ MiddleburyCalibration readMiddleburyCalibration(const std::string& path) {
     const Camera right = camera(file, "cam1");
     if (std::abs(right.focal_px - left.focal_px) > 1e-3 * left.focal_px)
       file.fail("cam1", "the focal length of cam0, for a rectified pair");
+    if (std::abs(right.cy_px - left.cy_px) > kLargestContradiction_px)
+      file.fail("cam1", "cy of cam0, for a rectified pair");
     result.stereo.doffs_px = right.cx_px - left.cx_px;
   }
   if (file.has("doffs")) {

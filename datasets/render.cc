@@ -143,6 +143,10 @@ void validate(const Surface& s) {
           "a leaf's u and v must be at right angles");
   require(s.taper >= -1 && s.taper <= 1, "taper is " + std::to_string(s.taper) + "; allowed: -1 to 1");
   require(s.paint.cell_m >= kFinestCell_m, "paint.cell_m must be at least 1e-6 m");
+  require(
+      s.paint.pattern != Pattern::kPicture ||
+          (s.shape == Shape::kParallelogram && !s.paint.picture.empty() && s.paint.picture.type() == CV_8UC3),
+      "paint.picture must be of 3 channels of 8 bits, on a parallelogram");
 }
 
 void validate(const SceneDescription& scene) {

@@ -40,6 +40,7 @@ enum class Pattern {
   kBark,     ///< kBranch: noise drawn out along the axis
   kBrick,    ///< kParallelogram: courses of bricks of cell_m by cell_m / 3
   kSign,     ///< kParallelogram: a frame, a round emblem and `text`
+  kPicture,  ///< kParallelogram: `picture`, its upper left corner at a = b = -1
 };
 
 struct Paint {
@@ -48,6 +49,7 @@ struct Paint {
   double cell_m = 0.1;  ///< cells of the coarsest octave (at least 1e-6); each further one has half of that
   Pattern pattern = Pattern::kNoise;
   std::string text = {};  ///< kSign: capital letters
+  cv::Mat picture = {};   ///< kPicture: CV_8UC3
 };
 
 struct Surface {

@@ -1,4 +1,5 @@
 // readRig(): recognises the format, hands the file to its reader, and checks what all formats have in common.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <sstream>
@@ -21,7 +22,12 @@ std::string readText(const std::string& path) {
   if (fs::file_size(path, error) > kLargestRigFile && !error)
     throw std::runtime_error(path + ": is too large for a calibration; allowed: up to 1 MiB");
   std::string text = readFile(path);
-  if (text.find('\0') != text.npos) failAtByte(path, text.find('\0'), "a zero byte; allowed: text");
+  // yaml-cpp takes some of these for the end of the file.
+  const auto isControl = [](unsigned char c) {
+    return (c < 0x20 && c != '\t' && c != '\n' && c != '\r') || c == 0x7f;
+  };
+  if (const auto at = std::find_if(text.begin(), text.end(), isControl); at != text.end())
+    failAtByte(path, static_cast<std::size_t>(at - text.begin()), "a control character; allowed: text");
   return text;
 }
 

@@ -24,7 +24,11 @@ CameraModel readCamera(const YamlFields& fields) {
     camera.distortion_model = DistortionModel::kFisheye;
   else if (model != "radtan" && model != "none")
     fields.fail("distortion_model", "radtan, equidistant or none");
-  if (model != "none") setDistortion(camera, fields, "distortion_coeffs");
+  if (model != "none") {
+    const char* key = "distortion_coeffs";
+    if (fields.numbers(key).size() != 4) fields.fail(key, "4 coefficients");
+    setDistortion(camera, fields, key);
+  }
   const cv::Matx<double, 1, 2> size = fields.matrix<1, 2>("resolution");
   for (const double side : size.val)
     if (!(side >= 1 && side <= kLongestSide && side == static_cast<int>(side)))

@@ -29,6 +29,12 @@ DistortionModel modelOf(const YamlFields& fields) {
   fields.fail("distortion_model", "polynomial or fisheye");
 }
 
+// Empty if the file has neither; one without the other is a mistake.
+cv::Size readSize(const YamlFields& fields, const char* width, const char* height) {
+  if (!fields.has(width) && !fields.has(height)) return {};
+  return {fields.integer(width, 1, kLongestSide), fields.integer(height, 1, kLongestSide)};
+}
+
 Rectification readRectification(const YamlFields& fields, double unit_m, cv::Size size) {
   const RectifiedView left = rectifiedView(fields.matrix<3, 4>("P1"));
   const RectifiedView right = rectifiedView(fields.matrix<3, 4>("P2"));
@@ -100,9 +106,10 @@ StereoRig rigFromOpenCv(const YamlFields& intrinsics, const YamlFields& extrinsi
   setMatrix(rig.right, intrinsics, "M2");
   setDistortion(rig.right, intrinsics, "D2");
   for (const YamlFields* fields : {&intrinsics, &extrinsics}) {
-    if (!fields->has("image_width")) continue;
-    rig.left.width = rig.right.width = fields->integer("image_width", 1, kLongestSide);
-    rig.left.height = rig.right.height = fields->integer("image_height", 1, kLongestSide);
+    const cv::Size size = readSize(*fields, "image_width", "image_height");
+    if (size.empty()) continue;
+    rig.left.width = rig.right.width = size.width;
+    rig.left.height = rig.right.height = size.height;
   }
   rig.right_from_left_rotation = extrinsics.matrix<3, 3>("R");
   const cv::Matx31d t = extrinsics.matrix<3, 1>("T");
@@ -110,11 +117,9 @@ StereoRig rigFromOpenCv(const YamlFields& intrinsics, const YamlFields& extrinsi
   const bool stated =
       extrinsics.has("R1") || extrinsics.has("P1") || extrinsics.has("R2") || extrinsics.has("P2");
   if (stated) {
-    const cv::Size size = extrinsics.has("rectified_width")
-                              ? cv::Size(extrinsics.integer("rectified_width", 1, kLongestSide),
-                                         extrinsics.integer("rectified_height", 1, kLongestSide))
-                              : cv::Size(rig.left.width, rig.left.height);
-    rig.rectification = readRectification(extrinsics, unit_m, size);
+    const cv::Size size = readSize(extrinsics, "rectified_width", "rectified_height");
+    rig.rectification = readRectification(extrinsics, unit_m,
+                                          size.empty() ? cv::Size(rig.left.width, rig.left.height) : size);
   }
   return rig;
 }

@@ -59,6 +59,14 @@ struct LeftRightPixels {
   int x_begin, count, width;
 };
 inline constexpr int kMatchChunk = 64;
+/// `count` pixels of the right map from q_begin on.
+struct MetPixels {
+  const float* right;
+  int q_begin, count, width, min_disparity, max_disparity;
+  float tolerance_px;
+};
+/// Disparities of this size or more, as infinite ones, meet nothing.
+inline constexpr float kFarthestDisparity_px = 1e9f;
 /// What becomes of a disparity: 0 also if it is NaN.
 inline constexpr int kAgrees = 0, kContradicted = 1, kMatchOutside = 2;
 
@@ -73,8 +81,9 @@ struct TrustPixels {
 struct FilterKernels {
   /// out[i]: what the right map says of the disparity of pixel i, see above.
   void (*contradictions)(const LeftRightPixels& pixels, float threshold_px, std::uint8_t* out);
-  /// Whether |right[i] - (disparity - i)| <= tolerance_px for some i < count.
-  bool (*meetsAny)(const float* right, int count, int disparity, float tolerance_px);
+  /// first[i] to last[i]: the left columns q + e in the image with a whole disparity e, min_disparity <= e <=
+  /// max_disparity, within tolerance_px of the right map at q; `width` to `width` if there is none.
+  void (*metColumns)(const MetPixels& pixels, std::int32_t* first, std::int32_t* last);
   /// codes[i] = (margin step * kTrustSteps + curvature step) * kTrustSteps + residual step; the residual's
   /// are eighths of a pixel of |d - d_right| at the match; the last one of each is open upwards. The first
   /// step of the margin is cut in two: 0 is its lower half, 1 its upper.

@@ -17,15 +17,26 @@ struct Search {
   int min_disparity, max_disparity;
 };
 
-/// Whether the epipolar line of left column x meets the right map.
-bool isMet(const float* right, int width, int x, const Search& search, const FilterKernels& kernels) {
-  const int first = std::max(0, x - search.max_disparity),
-            last = std::min(width - 1, x - search.min_disparity);
-  return first <= last && kernels.meetsAny(right + first, last - first + 1, x - first, search.tolerance_px);
+/// Marks each left column whose epipolar line meets the right map. `met` has `width` elements and one more.
+void markMetColumns(const float* right, int width, const Search& search, const FilterKernels& kernels,
+                    std::uint8_t* met) {
+  std::int32_t first[kMatchChunk], last[kMatchChunk];
+  std::fill_n(met, width + 1, std::uint8_t{0});
+  for (int begin = 0; begin < width; begin += kMatchChunk) {
+    const int count = std::min(kMatchChunk, width - begin);
+    kernels.metColumns(
+        {right + begin, begin, count, width, search.min_disparity, search.max_disparity, search.tolerance_px},
+        first, last);
+    for (int i = 0; i < count; ++i) {
+      const int a = first[i], b = last[i];
+      met[a] = met[(a + b) / 2] = met[b] = 1;
+      if (b - a > 2) std::fill(met + a, met + b, std::uint8_t{1});  // a wide tolerance
+    }
+  }
 }
 
 void checkRow(float* d, std::uint8_t* state, const float* right, int width, const Search& search,
-              const FilterKernels& kernels) {
+              const std::uint8_t* met, const FilterKernels& kernels) {
   static_assert(FlagChunk::kPixels == kMatchChunk);
   FlagChunk found;
   for (int begin = 0; begin < width; begin += kMatchChunk) {
@@ -34,9 +45,9 @@ void checkRow(float* d, std::uint8_t* state, const float* right, int width, cons
     found.forEachSet(count, [&](int i) {
       const int x = begin + i;
       if (state[x] != kMeasured) return;
-      state[x] = static_cast<std::uint8_t>(found.flags[i] == kMatchOutside           ? PixelState::kOutOfRange
-                                           : isMet(right, width, x, search, kernels) ? PixelState::kMismatched
-                                                                                     : PixelState::kOccluded);
+      state[x] = static_cast<std::uint8_t>(found.flags[i] == kMatchOutside ? PixelState::kOutOfRange
+                                           : met[x] != 0                   ? PixelState::kMismatched
+                                                                           : PixelState::kOccluded);
       d[x] = std::numeric_limits<float>::quiet_NaN();
     });
   }
@@ -46,12 +57,18 @@ void checkRow(float* d, std::uint8_t* state, const float* right, int width, cons
 
 void leftRightCheck(ImageView<float> disparity, ImageView<std::uint8_t> state,
                     ImageView<const float> right_disparity, float threshold_px, int min_disparity,
-                    int num_disparities, const FilterKernels& kernels, int threads) {
+                    int num_disparities, LeftRightScratch& scratch, const FilterKernels& kernels,
+                    int threads) {
+  const int width = disparity.width;
   const Search search{threshold_px, std::max(threshold_px, 1.0f), min_disparity,
                       min_disparity + num_disparities - 1};
+  scratch.met.resize(width + 1, disparity.height);
   parallelStrips(threads, disparity.height, 8, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y)
-      checkRow(disparity.row(y), state.row(y), right_disparity.row(y), disparity.width, search, kernels);
+    for (int y = begin; y < end; ++y) {
+      std::uint8_t* met = scratch.met.row(y);
+      markMetColumns(right_disparity.row(y), width, search, kernels, met);
+      checkRow(disparity.row(y), state.row(y), right_disparity.row(y), width, search, met, kernels);
+    }
   });
 }
 

@@ -371,7 +371,7 @@ class BadSideFiles(CommandTest):
                            (cam0 + "baseline=-1\n", "line 2: baseline is '-1'"),
                            (cam0 + "baseline=120\nwidth=1482\n", "is for images of 1482x64"),
                            (cam0 + "baseline=120\nndisp=97\n", "ndisp of"),
-                           ("\x00\xff\x01", "zero byte")):
+                           ("\x00\xff\x01", "control character")):
             self.refuse(part, "--calib", self.put("calib.txt", text))
 
     def test_ground_truth(self):
@@ -407,7 +407,8 @@ class BadOptions(CommandTest):
         self.refuse("--max-disparity = nan; allowed: a number", "--max-disparity", "nan")
         self.refuse("--max-disparity", "--max-disparity", "99999999999")
         self.refuse("--nonsense", "--nonsense", status=2)
-        self.assert_refused(self.run_command(), "compute, measure, eval, compare, calibrate, rig, rectify, check, render", 2)
+        self.assert_refused(self.run_command(), "compute, measure, eval, compare, range, plugins, calibrate, rig, rectify, check, "
+                            "render", 2)
         self.assert_refused(self.run_command("guess"), "guess", 2)
         self.assert_refused(self.run_command("compute"), "left", 2)
         self.assert_refused(self.run_command("compute", self.left, self.right), "--output", 2)

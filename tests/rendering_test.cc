@@ -497,5 +497,32 @@ TEST(CameraEffects, AreRefusedOutsideOfTheirRanges) {
   refused([](CameraEffects& e) { e.read_noise = 1000; });
 }
 
+TEST(Render, PicturesLieUprightOnTheirSurfaces) {
+  Surface sheet{Shape::kParallelogram, {0, 0, 2}, {0.5, 0, 0}, {0, 0.25, 0}, 0, {}};
+  sheet.paint.pattern = Pattern::kPicture;
+  sheet.paint.picture = cv::Mat(64, 128, CV_8UC3, cv::Scalar(10, 20, 30));
+  sheet.paint.picture(cv::Rect(64, 0, 64, 32)).setTo(cv::Scalar(200, 100, 50));  // above, at the right
+  for (int x = 0; x < 32; ++x)  // stripes that no camera this far away resolves
+    for (int y = 32; y < 64; ++y)
+      sheet.paint.picture.at<cv::Vec3b>(y, x) = x % 2 ? cv::Vec3b(0, 0, 0) : cv::Vec3b(200, 200, 200);
+  SceneDescription scene;
+  scene.width = 32;
+  scene.height = 16;
+  scene.focal_px = 64;
+  scene.baseline_m = 0.01;
+  scene.num_disparities = 4;
+  scene.surfaces = {sheet};
+  const cv::Mat image = render(scene).left.image;
+  EXPECT_EQ(image.at<cv::Vec3b>(3, 5), cv::Vec3b(10, 20, 30));
+  EXPECT_EQ(image.at<cv::Vec3b>(3, 26), cv::Vec3b(200, 100, 50));
+  EXPECT_EQ(image.at<cv::Vec3b>(12, 26), cv::Vec3b(10, 20, 30));
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(image.at<cv::Vec3b>(12, 3)[k], 100, 2);
+  scene.surfaces[0].shape = Shape::kEllipse;
+  EXPECT_THROW(render(scene), std::invalid_argument);
+  scene.surfaces[0].shape = Shape::kParallelogram;
+  scene.surfaces[0].paint.picture = cv::Mat();
+  EXPECT_THROW(render(scene), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace pomona

@@ -300,6 +300,12 @@ TEST_F(RigFile, MiddleburyIsRectified) {
                                "baseline=100\n"));
                  }),
                  "doffs is '-2'; allowed: cx of cam1 minus cx of cam0");
+  const auto rightCy = [](const char* cy) {
+    return std::string("cam0=[9 0 3; 0 9 2; 0 0 1]\ncam1=[9 0 5; 0 9 ") + cy + "; 0 0 1]\nbaseline=100\n";
+  };
+  expectContains(messageOf([&] { readRig(put("y.txt", rightCy("1e308"))); }),
+                 "line 2: cam1 is '[9 0 5; 0 9 1e308; 0 0 1]'; allowed: cy of cam0");
+  EXPECT_NO_THROW(readRig(put("y.txt", "\xef\xbb\xbf" + rightCy("2")))) << "a byte order mark";
   const StereoRig metres = readRig(folder_ / "m.txt", {.unit_m = 1});
   EXPECT_NEAR(metres.baselineM(), 0.193, 1e-12);
 }
@@ -357,7 +363,8 @@ TEST_F(RigFile, RefusesNonsenseNamingFileAndField) {
       {"a.yml", std::string(100000, '['), "no YAML"},
       {"a.yml", "a: 1\na: 2\n", "line 2: a second value for 'a'"},
       {"a.yml", "foo: 1\n", "no rig"},
-      {"a.yml", std::string("M1: \0", 5), "zero byte"},
+      {"a.yml", std::string("M1: \0", 5), "byte 4: a control character"},
+      {"a.yml", own + "\x04nonsense", "a control character; allowed: text"},
       {"a.yml", "M1: 5\n", "M1 is '5'; allowed: a list of numbers"},
       {"a.yml", "M1: [1, 0, 2]\n", "M1 is 3 values; allowed: 3 x 3 numbers"},
       {"a.yml", "M1: [500, 0, 2, 0, .nan, 3, 0, 0, 1]\n", "M1 holds '.nan'; allowed: finite numbers"},
@@ -372,6 +379,8 @@ TEST_F(RigFile, RefusesNonsenseNamingFileAndField) {
       {"a.yml", replaced(own, "image_width: 1280", "image_width: 1e9"), "image_width is '1e9'"},
       {"a.yml", replaced(own, "image_width: 1280", "image_width: 99999"), "image_width is '99999'"},
       {"a.yml", replaced(own, "image_width: 1280", "image_width: 200"), "left cx is 640.5"},
+      {"a.yml", replaced(own, "image_width: 1280\n", ""), "'image_width' is missing"},
+      {"a.yml", replaced(own, "image_height: 720\n", ""), "'image_height' is missing"},
       {"a.yml", replaced(own, "polynomial", "magic"), "distortion_model is 'magic'"},
       {"a.yml", replaced(own, "polynomial", "fisheye"), "D1 is a matrix or map; allowed: 4 coefficients"},
       {"a.yml", own + "R1: 5\n", "'P1' is missing"},
@@ -379,6 +388,7 @@ TEST_F(RigFile, RefusesNonsenseNamingFileAndField) {
       {"k.yaml", replaced(kKalibr, "radtan", "fov"), "cam0.distortion_model is 'fov'"},
       {"k.yaml", replaced(kKalibr, "458.6,", "-458.6,"), "cam0.intrinsics is 4 values"},
       {"k.yaml", replaced(kKalibr, "752, 480", "752.5, 480"), "cam0.resolution is 2 values"},
+      {"k.yaml", replaced(kKalibr, "-0.28", "-0,28"), "cam0.distortion_coeffs is 5 values; allowed: 4"},
       {"k.yaml", replaced(kKalibr, "  - [0.0, 0.0, 0.0, 1.0]\n", ""), "cam1.T_cn_cnm1 is 3 values"},
       {"k.yaml", replaced(kKalibr, "T_cn_cnm1", "T_cam_imu"), "'cam1.T_cn_cnm1' is missing"},
       {"k.yaml", replaced(kKalibr, "-0.11]", "-110]"), "baseline is 110 m"},
@@ -404,14 +414,48 @@ TEST_F(RigFile, RefusesNonsenseNamingFileAndField) {
   expectContains(messageOf([&] { readRig(put("big.yml", std::string(2 << 20, ' '))); }), "too large");
 }
 
+TEST_F(RigFile, RosRefusesNonsenseNamingFileAndField) {
+  writeRig(folder_ / "ros", rigOf({490, 318, 238, 0.12, 0, 640, 480, 0}), RigFormat::kRos);
+  const std::string good = bytesOf(folder_ / "ros/right.yaml");
+  const struct {
+    std::string text, part;
+  } cases[] = {
+      {"", "expected 'key: value'"},
+      {replaced(good, "image_width", "breadth"), "'image_width' is missing"},
+      {replaced(good, "projection_matrix", "P_matrix"), "'projection_matrix' is missing"},
+      {replaced(good, "rectification_matrix", "r_matrix"), "'rectification_matrix' is missing"},
+      {replaced(good, "[490, 0, 318, 0, 490,", "[-490, 0, 318, 0, -490,"), "camera_matrix is"},
+      {replaced(good, "[490, 0, 318, 0, 490,", "[.nan, 0, 318, 0, 490,"), "camera_matrix.data holds '.nan'"},
+      {replaced(good, "[490, 0, 318, 0, 490,", "[490, 0, 318, 0,"), "camera_matrix.data holds 8 numbers"},
+      {replaced(good, "[490, 0, 318, -58.8,", "[490, 0, 318, 1e999,"),
+       "projection_matrix.data holds '1e999'"},
+      {replaced(good, "[490, 0, 318, -58.8,", "[480, 0, 318, -58.8,"), "projection_matrix is"},
+      {replaced(good, "[490, 0, 318, -58.8,", "[490, 0, 318, -58800,"), "baseline is 120 m"},
+      {replaced(good, "plumb_bob", "fov"), "distortion_model is 'fov'"},
+      {replaced(good, "image_height: 480", "image_height: -480"), "image_height is '-480'"},
+      {replaced(good, "image_height: 480", "image_height: 240"), "right size is 640x240"},
+  };
+  for (const auto& c : cases) {
+    SCOPED_TRACE(c.part);
+    put("right.yaml", c.text);
+    const std::string message =
+        messageOf([&] { readRigPair(folder_ / "ros/left.yaml", folder_ / "right.yaml"); });
+    expectContains(message, c.part);
+    expectContains(message, "right.yaml");
+    EXPECT_EQ(message.find('\n'), message.npos) << message;
+  }
+}
+
 // Whatever is cut off or altered: an error or a valid rig, never anything else.
 TEST_F(RigFile, DamageIsNoticedOrHarmless) {
   StereoRig rig = someRig();
   rig.rectification = rectificationOf(rig);
   writeRig(folder_ / "good.yml", rig);
   const std::string own = bytesOf(folder_ / "good.yml");
-  for (const std::string& good : {own, kKalibr, kKittiRectified}) {
-    const std::string leaf = &good == &kKittiRectified ? "x.txt" : "x.yaml";
+  writeRig(folder_ / "calib.txt", rig, RigFormat::kMiddlebury);
+  const std::string middlebury = bytesOf(folder_ / "calib.txt");
+  for (const std::string& good : {own, kKalibr, kKittiRectified, middlebury}) {
+    const std::string leaf = good == own || good == kKalibr ? "x.yaml" : "x.txt";
     for (std::size_t i = 0; i < good.size(); i += 23)
       for (const char* damage : {"cut", "-", "9", "\n", "["}) {
         std::string text = good;

@@ -60,6 +60,7 @@ struct KernelMaterial {
   Image<std::uint16_t> small16;
   MatchMaps trusted;
   Trust trust;
+  LeftRightScratch left_right;
   SpeckleScratch speckle;
   MedianScratch median;
   BilateralScratch bilateral;

@@ -74,28 +74,6 @@ inline Ints isNan(Floats v) {
   return v != v;
 }
 
-/// Whether any lane of a mask is set.
-#if defined(__AVX512F__)
-inline bool any(Ints mask) {
-  return _mm512_test_epi32_mask(reinterpret_cast<__m512i>(mask), reinterpret_cast<__m512i>(mask)) != 0;
-}
-#elif defined(__AVX2__)
-inline bool any(Ints mask) {
-  return _mm256_movemask_ps(reinterpret_cast<__m256>(mask)) != 0;
-}
-#else
-inline bool any(Ints mask) {
-  return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
-}
-#endif
-
-/// 0, 1, 2 ...
-inline Floats laneNumbers() {
-  Floats v;
-  for (int i = 0; i < kFloatLanes; ++i) v[i] = static_cast<float>(i);
-  return v;
-}
-
 /// The bits of a vector, read as the other type.
 inline Ints bitsOf(Floats v) {
   return reinterpret_cast<Ints>(v);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "datasets/rendering/noise.h"
+#include "datasets/rendering/picture_paint.h"
 
 namespace pomona {
 namespace {
@@ -136,6 +137,11 @@ Vec3d sign(const Solid& s, const Vec3d& point, double pixel_m) {
   return (ink ? s.paint.second_bgr : s.paint.first_bgr) * (1 + 0.1 * grain);
 }
 
+Vec3d picture(const Solid& s, const Vec3d& point, double pixel_m) {
+  const Vec3d p = s.localAt(point);
+  return pictureAt(s.reductions, (p[0] + 1) / 2, (p[1] + 1) / 2, pixel_m / (2 * s.half_length_m));
+}
+
 }  // namespace
 
 Vec3d paintAt(const Solid& solid, const Vec3d& point, double pixel_m) {
@@ -154,6 +160,8 @@ Vec3d paintAt(const Solid& solid, const Vec3d& point, double pixel_m) {
       return brick(solid, point, pixel_m);
     case Pattern::kSign:
       return sign(solid, point, pixel_m);
+    case Pattern::kPicture:
+      return picture(solid, point, pixel_m);
   }
   return {};
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "datasets/rendering/picture_paint.h"
+
 namespace pomona {
 namespace {
 
@@ -46,6 +48,8 @@ Solid::Solid(const Surface& s, std::uint64_t paint_seed)
       seed(paint_seed),
       half_length_m(std::sqrt(s.u.dot(s.u))),
       half_width_m(std::sqrt(s.v.dot(s.v))),
+      reductions(s.paint.pattern == Pattern::kPicture ? reductionsOf(s.paint.picture)
+                                                      : std::vector<cv::Mat>()),
       u_(s.u),
       v_(s.v),
       normal_(s.u.cross(s.v)),

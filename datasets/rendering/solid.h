@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <opencv2/core.hpp>
+#include <vector>
 
 #include "datasets/render.h"
 
@@ -39,6 +40,7 @@ class Solid {
   Paint paint;
   std::uint64_t seed;
   double half_length_m, half_width_m;  ///< lengths of u and v
+  std::vector<cv::Mat> reductions;  ///< kPicture: paint.picture, and each reduced by two from the one before
   double radiusM() const { return radius_m_; }
 
  private:

@@ -32,17 +32,26 @@ inline void contradictionsOf(const LeftRightPixels& p, float threshold_px, std::
   }
 }
 
-inline bool meetsAnyOf(const float* right, int count, int disparity, float tolerance_px) {
-  const Floats tolerance = broadcast(tolerance_px),
-               first = broadcast(static_cast<float>(disparity)) - laneNumbers();
-  int i = 0;
-  for (; i + kFloatLanes <= count; i += kFloatLanes) {
-    const Floats off = load(right + i) - (first - broadcast(static_cast<float>(i)));
-    if (any((off <= tolerance) & (off >= -tolerance))) return true;
+inline void metColumnsOf(const MetPixels& p, std::int32_t* __restrict first, std::int32_t* __restrict last) {
+  const float *right = p.right, tolerance_px = p.tolerance_px;
+  const int count = p.count, q_begin = p.q_begin, width = p.width, least = p.min_disparity,
+            largest = p.max_disparity;
+  for (int i = 0; i < count; ++i) {
+    const bool known = __builtin_fabsf(right[i]) < kFarthestDisparity_px;
+    const float r = known ? right[i] : 0.0f;
+    int low = static_cast<int>(r - tolerance_px), high = static_cast<int>(r + tolerance_px) + 1;
+    // Truncation lets one too many in, and up to two at the end.
+    low += __builtin_fabsf(r - static_cast<float>(low)) > tolerance_px;
+    high -= __builtin_fabsf(r - static_cast<float>(high)) > tolerance_px;
+    high -= __builtin_fabsf(r - static_cast<float>(high)) > tolerance_px;
+    low = (low > least ? low : least) + q_begin + i;
+    high = (high < largest ? high : largest) + q_begin + i;
+    low = low > 0 ? low : 0;
+    high = high < width - 1 ? high : width - 1;
+    const bool any = known & (low <= high);
+    first[i] = any ? low : width;
+    last[i] = any ? high : width;
   }
-  for (; i < count; ++i)
-    if (__builtin_fabsf(right[i] - static_cast<float>(disparity - i)) <= tolerance_px) return true;
-  return false;
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace pomona {
 namespace {
 
 constexpr FilterKernels kTable = {.contradictions = contradictionsOf,
-                                  .meetsAny = meetsAnyOf,
+                                  .metColumns = metColumnsOf,
                                   .trustCodes = trustCodesOf,
                                   .breaks = breaksOf,
                                   .links = linksOf,

@@ -1,9 +1,10 @@
 """Runs the examples, built against the installed library, on rendered frames, and checks what they measure.
 
-Usage: examples_test.py POMONA HARVEST_ROBOT COMPUTE_DISPARITY, all paths of programs
+Usage: examples_test.py POMONA HARVEST_ROBOT COMPUTE_DISPARITY, all paths of programs, and PLUGIN, the folder of one
 """
 
 import array
+import csv
 import math
 import os
 import re
@@ -13,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 
-POMONA, HARVEST, COMPUTE = sys.argv[1:]
+POMONA, HARVEST, COMPUTE, PLUGIN = sys.argv[1:]
 PICK = re.compile(r"frame (\d+)  box [\d,]+  ([\d.]+) \+- ([\d.]+) m  centre \((\S+), (\S+), (\S+)\) m  radius")
 
 
@@ -76,4 +77,16 @@ with tempfile.TemporaryDirectory() as folder:
     text = run(POMONA, "compute", os.path.join(frames, "left0.png"), os.path.join(frames, "right0.png"), "-o",
                os.path.join(folder, "own.pfm"), "--gt", out)
     assert float(re.search(r"average error ([\d.]+) px", text).group(1)) < 0.01, text
+
+    points = os.path.join(folder, "points.csv")
+    text = run(POMONA, "range", os.path.join(frames, "left1.png"), os.path.join(frames, "right1.png"), "--calib",
+               calibration, "--plugin", "corners", "--set", "count=100", "-o", points,
+               env={**os.environ, "POMONA_PLUGIN_PATH": PLUGIN})
+    with open(points, encoding="ascii", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert 30 <= len(rows) <= 100 and re.search(r"corners +100\b", text), text
+    off = [abs(float(row["disparity_px"]) - truths[1][int(row["left_y_px"])][int(row["left_x_px"])]) for row in rows]
+    assert statistics.median(off) < 1, off  # corners of leaves: half of each is background
+    assert all(abs(float(row["z_m"]) * float(row["disparity_px"]) / (focal * baseline) - 1) < 1e-4 for row in rows)
+print(f"{len(rows)} corners by an outside plugin, median error {statistics.median(off):.3f} px")
 print(f"{len(errors)} fruits, median error {100 * statistics.median(errors):.2f} %")

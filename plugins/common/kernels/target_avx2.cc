@@ -1,0 +1,9 @@
+#include "plugins/common/kernels/distances.inl"
+
+namespace pomona {
+
+const DistanceKernels& distanceKernelsAvx2() {
+  return kTable;
+}
+
+}  // namespace pomona

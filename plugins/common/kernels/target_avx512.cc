@@ -1,0 +1,9 @@
+#include "plugins/common/kernels/distances.inl"
+
+namespace pomona {
+
+const DistanceKernels& distanceKernelsAvx512() {
+  return kTable;
+}
+
+}  // namespace pomona

@@ -1,0 +1,35 @@
+// The parameters by which a plugin is told what to recognise.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "plugins/common/object_database.h"
+#include "pomona/plugin_settings.h"
+
+namespace pomona {
+
+/// What pictures are learned by unless the settings say otherwise.
+enum class Thoroughness {
+  kFrontal,  ///< the picture itself, and what stands out in it: quick to compare with
+  kWide,     ///< as if turned by up to 60 degrees, too, and fainter features
+};
+
+/// Opens the objects that settings name, and keeps them for the next run, until the files change.
+class KnownObjects {
+ public:
+  /// objects, features, views, picture_sensitivity, save_objects.
+  static std::vector<PluginParameter> parameters(Thoroughness thoroughness);
+  /// What makes them those of a published method: one view, `features` (SIFT where this build lacks them).
+  static std::vector<std::pair<std::string, std::string>> faithful(const std::string& features);
+
+  /// Throws as openObjects() does, and std::runtime_error if save_objects cannot be written.
+  const ObjectDatabase& open(const PluginSettings& settings);
+
+ private:
+  std::string opened_;
+  ObjectDatabase database_;
+};
+
+}  // namespace pomona

@@ -1,0 +1,368 @@
+// Signs that are found and ranged, and what a detector boxes.
+#include "plugins/logo_range/logo_range.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <opencv2/imgproc.hpp>
+
+#include "bench/sparse/object_scenes.h"
+#include "bench/sparse/real_queries.h"
+#include "bench/sparse/temporary_folder.h"
+#include "datasets/atomic_file.h"
+#include "datasets/image_file.h"
+#include "plugins/common/disparity_plane.h"
+#include "plugins/logo_range/box_range.h"
+#include "pomona/plugin_host.h"
+#include "tests/tiny_networks.h"
+
+namespace pomona {
+namespace {
+
+template <typename Work>
+std::string errorOf(const Work& work) {
+  try {
+    work();
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// A sign of 1.2 m x 0.4 m before a wall of noise: 480 x 320, f 600 px, baseline 120 mm.
+struct Street {
+  RenderedPair pair;
+  cv::Vec3d middle_m;
+};
+Street street(double z_m, double yaw_deg, const cv::Mat& picture, double x_m = 0.1, double right_gain = 1) {
+  SceneDescription scene;
+  scene.width = 480;
+  scene.height = 320;
+  scene.focal_px = 600;
+  scene.baseline_m = 0.12;
+  scene.num_disparities = 48;
+  scene.seed = 5;
+  Paint wall{{60, 70, 80}, {140, 150, 160}, 0.3, Pattern::kMottle};
+  scene.surfaces.push_back({Shape::kPlane, {0, 0, z_m + 2}, {1, 0, 0}, {0, 1, 0}, 0, wall});
+  Paint sign;
+  sign.pattern = Pattern::kPicture;
+  sign.picture = picture;
+  const double yaw = yaw_deg * CV_PI / 180;
+  const cv::Vec3d middle(x_m, -0.2, z_m);
+  scene.surfaces.push_back({Shape::kParallelogram,
+                            middle,
+                            cv::Vec3d(std::cos(yaw), 0, std::sin(yaw)) * 0.6,
+                            {0, 0.2, 0},
+                            0,
+                            sign});
+  CameraEffects effects;
+  effects.shot_noise = 2;
+  effects.right_gain = right_gain;
+  return {render(scene, effects), middle};
+}
+
+ObjectDatabase databaseOf(const cv::Mat& picture, const std::vector<double>& yaws_deg) {
+  const TrainingOptions options{FeatureKind::kRootSift, 2, yaws_deg};
+  return {options.kind, {learnObject("sign", picture, options)}};
+}
+
+SparseObject lookFor(const ObjectDatabase& database, const Street& s, const LogoRangeOptions& options = {},
+                     const cv::Mat& mask = {}) {
+  const RectifiedPair pair{s.pair.left.image, s.pair.right.image};
+  const SparseResult result = rangeSigns(pair, s.pair.calibration, mask, database, options);
+  EXPECT_EQ(result.objects.size(), 1u);
+  return result.objects.at(0);
+}
+
+TEST(ObjectDatabase, ComesBackFromItsFile) {
+  ObjectDatabase database = databaseOf(signPicture(), {-45, 45});
+  database.objects.push_back({"plain", {30, 20}, {{}, cv::Mat(0, 128, CV_32F)}});
+  const TemporaryFolder folder;
+  writeFile(folder.file("signs.objects"), encodeObjectDatabase(database));
+  const ObjectDatabase read = readObjectDatabase(folder.file("signs.objects"));
+  ASSERT_EQ(read.objects.size(), 2u);
+  EXPECT_EQ(read.kind, database.kind);
+  EXPECT_EQ(read.objects[1].label, "plain");
+  EXPECT_EQ(read.objects[1].features.count(), 0);
+  const KnownObject &before = database.objects[0], &after = read.objects[0];
+  EXPECT_EQ(after.size_px, before.size_px);
+  ASSERT_EQ(after.features.count(), before.features.count());
+  ASSERT_GT(after.features.count(), 100);
+  EXPECT_EQ(cv::norm(after.features.descriptors, before.features.descriptors, cv::NORM_INF), 0);
+  EXPECT_EQ(after.features.keypoints[7].pt, before.features.keypoints[7].pt);
+  EXPECT_EQ(after.features.keypoints.back().class_id, 2);
+}
+
+TEST(ObjectDatabase, RefusesWhatIsNoDatabase) {
+  const TemporaryFolder folder;
+  const std::string path = folder.file("signs.objects");
+  const auto reading = [&](const std::string& bytes) {
+    writeFile(path, bytes);
+    return errorOf([&] { readObjectDatabase(path); });
+  };
+  const std::string good = encodeObjectDatabase(databaseOf(signPicture(), {}));
+  EXPECT_EQ(reading(good), "");
+  EXPECT_NE(reading("").find("byte 0: this is no database"), std::string::npos);
+  EXPECT_NE(reading("P5 3 3 255 and more").find("no database"), std::string::npos);
+  for (const std::size_t length : {9ul, 15ul, 19ul, 25ul, 40ul, 41ul, 60ul, good.size() / 2, good.size() - 1})
+    EXPECT_NE(reading(good.substr(0, length)), "") << length;
+  EXPECT_NE(reading(good + "x").find("nothing is allowed after"), std::string::npos);
+  std::string other = good;
+  other[8] = 2;
+  EXPECT_NE(reading(other).find("byte 8: the version is 2; allowed: 1 to 1"), std::string::npos);
+  other = good.substr(0, 16) + std::string(4, '\0');
+  EXPECT_NE(reading(other).find("the number of objects is 0"), std::string::npos);
+}
+
+TEST(DisparityPlane, IsThatOfMostPoints) {
+  std::vector<PlaceDisparity> points;
+  for (int i = 0; i < 40; ++i) {
+    const cv::Point2d at(37 * i % 101, 53 * i % 89);
+    points.push_back({at, 12 + 0.03 * at.x - 0.01 * at.y + (i % 3 == 0 ? 5 + i : 0)});
+  }
+  const auto plane = fitDisparityPlane(points, {50, 40}, 0.5, 10);
+  ASSERT_TRUE(plane);
+  EXPECT_NEAR(plane->disparity_px, 12 + 1.5 - 0.4, 1e-9);
+  EXPECT_NEAR(plane->slope_x, 0.03, 1e-9);
+  EXPECT_NEAR(plane->at({0, 0}), 12, 1e-9);
+  EXPECT_FALSE(fitDisparityPlane(points, {50, 40}, 0.5, 39));
+  EXPECT_FALSE(fitDisparityPlane({{{0, 0}, 1}, {{1, 1}, 1}, {{2, 2}, 1}}, {0, 0}, 0.5, 3));  // on one line
+}
+
+TEST(DisparityPlane, AlignsViewsOfDifferentBrightness) {
+  const Street s = street(3, 40, signPicture(), 0.1, 0.8);
+  const StereoCalibration& rig = s.pair.calibration;
+  const cv::Point2d middle(rig.cx_px + 600 * s.middle_m[0] / 3, rig.cy_px + 600 * s.middle_m[1] / 3);
+  const std::vector<cv::Point2f> inside{{200, 100}, {320, 100}, {320, 138}, {200, 138}};
+  const cv::Mat left = grayOf(s.pair.left.image), right = grayOf(s.pair.right.image);
+  const auto plane = alignDisparityPlane(left, right, inside, {middle, 24 + 0.9, 0, 0, 0});
+  ASSERT_TRUE(plane);
+  EXPECT_NEAR(plane->disparity_px, 24, 0.03);  // f B / Z
+  EXPECT_LT(plane->slope_x, -0.02);            // farther to the right
+  EXPECT_GT(plane->sigma_px, 0);
+  EXPECT_LT(plane->sigma_px, 0.1);
+  EXPECT_FALSE(alignDisparityPlane(left, right, inside, {middle, 5, 0, 0, 0}));
+  const cv::Mat gray(left.size(), CV_8U, cv::Scalar(99));
+  EXPECT_FALSE(alignDisparityPlane(gray, gray, inside, {middle, 24, 0, 0, 0}));
+}
+
+TEST(LogoRange, TellsDistanceAndDirection) {
+  const ObjectDatabase database = databaseOf(signPicture(), wideYaws());
+  for (const double yaw_deg : {-45., 0., 45.}) {
+    const Street s = street(3.5, yaw_deg, signPicture(), 0.4);
+    const SparseObject object = lookFor(database, s);
+    ASSERT_TRUE(object.found()) << yaw_deg << ": " << object.why_not;
+    EXPECT_NEAR(object.distance_m, cv::norm(s.middle_m), 0.01 * 3.5) << yaw_deg;
+    EXPECT_NEAR(object.bearing_deg, std::atan2(0.4, 3.5) * 180 / CV_PI, 0.2) << yaw_deg;
+    EXPECT_GT(object.sigma_m, 0);
+    EXPECT_EQ(object.outline_px.size(), 4u);
+  }
+}
+
+TEST(LogoRange, NeedsWideViewsForSteepSigns) {
+  const Street steep = street(4, 62, signPicture());
+  EXPECT_TRUE(lookFor(databaseOf(signPicture(), wideYaws()), steep).found());
+  EXPECT_FALSE(lookFor(databaseOf(signPicture(), {}), steep).found());
+}
+
+TEST(LogoRange, NotFoundIsAResult) {
+  const Street s = street(3, 0, signPicture());
+  const SparseObject other = lookFor(databaseOf(coverPicture(5), wideYaws()), s);
+  EXPECT_NE(other.why_not.find(" of at least 6 "), std::string::npos) << other.why_not;
+  EXPECT_TRUE(std::isnan(other.distance_m));
+  const SparseObject plain =
+      lookFor(databaseOf(cv::Mat(80, 80, CV_8UC3, cv::Scalar::all(90)), wideYaws()), s);
+  EXPECT_EQ(plain.why_not, "its picture has no features to recognise it by");
+}
+
+TEST(LogoRange, LooksOnlyWhereItMay) {
+  const ObjectDatabase database = databaseOf(signPicture(), {});
+  const Street s = street(3, 0, signPicture());  // in the upper half
+  ASSERT_TRUE(lookFor(database, s).found());
+  LogoRangeOptions upper;
+  upper.upper_half = true;
+  EXPECT_TRUE(lookFor(database, s, upper).found());
+  cv::Mat lower = cv::Mat::zeros(320, 480, CV_8U);
+  lower.rowRange(160, 320).setTo(255);
+  EXPECT_FALSE(lookFor(database, s, {}, lower).found());
+  EXPECT_FALSE(lookFor(database, s, upper, lower).found());
+}
+
+// Gray views of 256 x 256 with a red square of 16 x 16 at disparity 16, which fills a cell of the tiny
+// networks.
+RectifiedPair redSquare() {
+  RectifiedPair pair;
+  pair.left = cv::Mat(256, 256, CV_8UC3, cv::Scalar::all(128));
+  pair.right = pair.left.clone();
+  pair.left(cv::Rect(128, 96, 16, 16)).setTo(cv::Scalar(0, 0, 255));
+  pair.right(cv::Rect(112, 96, 16, 16)).setTo(cv::Scalar(0, 0, 255));
+  return pair;
+}
+
+struct TinyFiles {
+  TemporaryFolder folder;
+  DetectorOptions darknet, onnx;
+
+  TinyFiles() {
+    writeFile(folder.file("tiny.cfg"), tinyDarknetShape());
+    writeFile(folder.file("tiny.weights"), tinyDarknetWeights());
+    writeFile(folder.file("tiny.onnx"), tinyOnnx());
+    writeFile(folder.file("names"), "red thing\n");
+    darknet.network = folder.file("tiny.cfg");
+    onnx.network = folder.file("tiny.onnx");
+    darknet.input_size_px = onnx.input_size_px = kTinyInput;
+    darknet.labels = onnx.labels = folder.file("names");
+  }
+};
+
+TEST(Detector, ReadsDarknetAndOnnx) {
+  const TinyFiles files;
+  for (const DetectorOptions& options : {files.darknet, files.onnx}) {
+    Detector detector(options);
+    const std::vector<Detection> seen = detector.detect(redSquare().left);
+    ASSERT_EQ(seen.size(), 1u) << options.network;
+    EXPECT_NEAR(seen[0].box_px.x, 127.5, 0.01) << options.network;
+    EXPECT_NEAR(seen[0].box_px.y, 95.5, 0.01);
+    EXPECT_NEAR(seen[0].box_px.width, 16, 0.01);
+    EXPECT_GT(seen[0].confidence, 0.9f);
+    EXPECT_EQ(detector.labelOf(seen[0].kind), "red thing");
+    EXPECT_EQ(detector.labelOf(3), "class 3");
+    EXPECT_TRUE(detector.detect(cv::Mat(256, 256, CV_8UC1, cv::Scalar(128))).empty());
+  }
+}
+
+TEST(Detector, RefusesUnreadableFiles) {
+  const TinyFiles files;
+  const auto error = [](DetectorOptions options) { return errorOf([&] { Detector detector(options); }); };
+  DetectorOptions bad = files.darknet;
+  bad.weights = files.folder.file("missing.weights");
+  EXPECT_NE(error(bad).find("missing.weights: cannot be read"), std::string::npos) << error(bad);
+  bad.weights = files.folder.file("short.weights");
+  for (const std::size_t bytes : {0ul, 12ul, 30ul, 200ul, tinyDarknetWeights().size() - 4}) {
+    writeFile(bad.weights, tinyDarknetWeights().substr(0, bytes));
+    EXPECT_NE(error(bad).find("short.weights"), std::string::npos) << bytes << ": " << error(bad);
+  }
+  bad = files.onnx;
+  bad.network = files.folder.file("half.onnx");
+  writeFile(bad.network, tinyOnnx().substr(0, tinyOnnx().size() / 2));
+  EXPECT_NE(error(bad).find("half.onnx: "), std::string::npos) << error(bad);
+  EXPECT_EQ(error(bad).find('\n'), std::string::npos);
+  bad.network = files.folder.file("names");
+  EXPECT_NE(error(bad).find("allowed: a .cfg (Darknet) or .onnx file"), std::string::npos);
+  bad.network = files.folder.file("empty.cfg");
+  bad.weights = files.folder.file("tiny.weights");
+  writeFile(bad.network, "no network at all");
+  EXPECT_NE(error(bad).find("empty.cfg: "), std::string::npos) << error(bad);
+}
+
+TEST(BoxRange, ByCentersAndByTheDenseMap) {
+  StereoCalibration rig;
+  rig.focal_px = 256;
+  rig.cx_px = rig.cy_px = 127.5;
+  rig.baseline_m = 0.1;
+  StereoResult dense;
+  dense.disparity = cv::Mat(256, 256, CV_32F, cv::Scalar(4));
+  dense.disparity(cv::Rect(128, 96, 16, 16)).setTo(16.5f);
+  const auto map = [&]() -> const StereoResult& { return dense; };
+  const auto label = [](int) { return std::string("thing"); };
+  Boxes boxes{{{0, 1, {127.5f, 95.5f, 16, 16}}},
+              {{1, 1, {111.5f, 95.5f, 16, 16}}, {0, 1, {111.5f, 97.5f, 16, 16}}}};
+  const SparseResult centers = rangeBoxes(boxes, rig, BoxRanging::kCenters, map, label);
+  ASSERT_TRUE(centers.objects.at(0).found());
+  EXPECT_NEAR(centers.objects[0].point_m.z, 25.6 / 16, 1e-6);
+  const SparseResult surface = rangeBoxes(boxes, rig, BoxRanging::kDense, map, label);
+  ASSERT_TRUE(surface.objects.at(0).found()) << surface.objects[0].why_not;
+  EXPECT_NEAR(surface.objects[0].point_m.z, 25.6 / 16.5, 1e-3);
+  boxes.right.pop_back();  // what is left is of another class
+  EXPECT_EQ(rangeBoxes(boxes, rig, BoxRanging::kCenters, map, label).objects.at(0).why_not,
+            "the right view has no box to pair it with");
+}
+
+class LogoRangePlugin : public ::testing::Test {
+ protected:
+  SparseResult run(const RectifiedPair& pair, const StereoCalibration& rig,
+                   const std::vector<std::string>& values) {
+    PluginSettings settings = plugin_.settings();
+    settings.assign(values);
+    return plugin_.run(pair.left, pair.right, rig, settings);
+  }
+  LoadedPlugin plugin_{POMONA_LOGO_RANGE};
+  TemporaryFolder folder_;
+};
+
+TEST_F(LogoRangePlugin, LearnsOnceAndKeepsTheDatabase) {
+  const Street s = street(3, 20, signPicture());
+  const RectifiedPair pair{s.pair.left.image, s.pair.right.image};
+  const std::string picture = folder_.file("fruit shop.png"), database = folder_.file("signs.objects");
+  writeFile(picture, encodeImage(signPicture()));
+  const SparseResult first =
+      run(pair, s.pair.calibration, {"objects=" + picture, "save_objects=" + database});
+  ASSERT_TRUE(first.objects.at(0).found()) << first.objects[0].why_not;
+  EXPECT_EQ(first.objects[0].label, "fruit shop");
+  const SparseResult again = run(pair, s.pair.calibration, {"objects=" + database});
+  EXPECT_EQ(again.objects.at(0).distance_m, first.objects[0].distance_m);
+  const SparseResult faithful = run(pair, s.pair.calibration, {"variant=faithful", "objects=" + picture});
+  ASSERT_TRUE(faithful.objects.at(0).found()) << faithful.objects[0].why_not;
+  EXPECT_NEAR(faithful.objects[0].distance_m, cv::norm(s.middle_m), 0.1 * 3);
+}
+
+TEST_F(LogoRangePlugin, LearnsAPictureAgainThatChanged) {
+  const Street s = street(3, 0, signPicture());
+  const RectifiedPair pair{s.pair.left.image, s.pair.right.image};
+  const std::string picture = folder_.file("sign.png");
+  writeFile(picture, encodeImage(coverPicture(2)));
+  EXPECT_FALSE(run(pair, s.pair.calibration, {"objects=" + picture}).objects.at(0).found());
+  writeFile(picture, encodeImage(signPicture()));
+  EXPECT_TRUE(run(pair, s.pair.calibration, {"objects=" + picture}).objects.at(0).found());
+}
+
+TEST_F(LogoRangePlugin, SaysWhatIsWrong) {
+  const RectifiedPair pair = redSquare();
+  StereoCalibration rig;
+  rig.focal_px = 256;
+  rig.baseline_m = 0.1;
+  const auto error = [&](const std::vector<std::string>& values) {
+    return errorOf([&] { run(pair, rig, values); });
+  };
+  EXPECT_NE(error({}).find("logo-range: objects is ''; allowed:"), std::string::npos) << error({});
+  EXPECT_NE(error({"objects=/nowhere.png"}).find("/nowhere.png"), std::string::npos);
+  EXPECT_NE(error({"network=/nowhere.cfg"}).find("/nowhere.cfg: cannot be read"), std::string::npos)
+      << error({"network=/nowhere.cfg"});
+  EXPECT_NE(error({"ratio=3"}).find("allowed: 0 to 1"), std::string::npos);
+}
+
+TEST_F(LogoRangePlugin, RangesADetectorsBoxes) {
+  const TinyFiles files;
+  StereoCalibration rig;
+  rig.focal_px = 256;
+  rig.baseline_m = 0.1;
+  const SparseResult result = run(redSquare(), rig,
+                                  {"network=" + files.darknet.network, "input_size_px=64",
+                                   "labels=" + files.darknet.labels, "box_ranging=centers"});
+  ASSERT_EQ(result.objects.size(), 1u);
+  ASSERT_TRUE(result.objects[0].found()) << result.objects[0].why_not;
+  EXPECT_EQ(result.objects[0].label, "red thing");
+  EXPECT_NEAR(result.objects[0].point_m.z, 1.6, 1e-4);
+}
+
+TEST_F(LogoRangePlugin, FindsAlteredPicturesInRealPairs) {
+  const char* const scenes = std::getenv("POMONA_DATASETS");
+  if (!scenes) GTEST_SKIP() << "set POMONA_DATASETS to a folder with middlebury/<scene>/";
+  for (const RealQuery& query : realQueries()) {
+    const RealPair real = realPair(query, scenes);
+    const std::string picture = folder_.file(query.scene + ".png");
+    writeFile(picture, encodeImage(pictureOf(query, real.left)));
+    const SparseResult result =
+        run({real.left, real.right}, real.calibration, {"objects=" + picture, "sensitivity=2"});
+    std::filesystem::remove(picture);
+    const SparseObject& object = result.objects.at(0);
+    ASSERT_TRUE(object.found()) << query.scene << " " << query.label << ": " << object.why_not;
+    EXPECT_NEAR(disparityOf(real.calibration, object.point_m.z), real.truth_px, 0.02 * real.truth_px)
+        << query.scene << " " << query.label;
+  }
+}
+
+}  // namespace
+}  // namespace pomona
