@@ -100,15 +100,25 @@ std::vector<BoardView> findBoards(const std::vector<Pair>& pairs, const BoardSiz
   Progress progress(static_cast<int>(pairs.size()));
   for (const auto& [left_path, right_path] : pairs) {
     progress.show(left_path);
-    const cv::Mat left = readImage8(left_path), right = readImage8(right_path);
-    if (views.empty()) image_size = left.size();
+    const std::string name = std::filesystem::path(left_path).filename().string();
+    cv::Mat left, right;
+    try {
+      left = readImage8(left_path);
+      right = readImage8(right_path);
+    } catch (const std::runtime_error& e) {  // one bad file of many
+      views.push_back({name, {}, {}, e.what()});
+      progress.stepsDone(1);
+      continue;
+    }
+    if (image_size.empty()) image_size = left.size();
     if (left.size() != image_size)
       throw std::invalid_argument(left_path + ": is " + std::to_string(left.cols) + "x" +
                                   std::to_string(left.rows) + "; allowed: the size of the first, " +
                                   std::to_string(image_size.width) + "x" + std::to_string(image_size.height));
-    views.push_back(findBoard(std::filesystem::path(left_path).filename().string(), left, right, board));
+    views.push_back(findBoard(name, left, right, board));
     progress.stepsDone(1);
   }
+  if (image_size.empty()) throw std::runtime_error(views.front().rejected);
   return views;
 }
 

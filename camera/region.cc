@@ -32,7 +32,8 @@ Outline outlineOfShape(const cv::Rect& box, cv::Size) {
 
 Outline outlineOfShape(const Circle& circle, cv::Size) {
   require(isPlausible(circle.center_px), "the circle's centre is not a number, or out of any image");
-  require(circle.radius_px > 0 && circle.radius_px < kFarthest_px, "the circle's radius must be above 0");
+  require(circle.radius_px > 0, "the circle's radius must be above 0");
+  require(circle.radius_px < kFarthest_px, "the circle is larger than any image");
   return {circle.center_px, circle.radius_px};
 }
 

@@ -128,7 +128,7 @@ const StereoResult& StereoEngine::compute(const cv::Mat& left_view, const cv::Ma
   StageClock clock(s.result.timings);
   const cv::Mat mask = s.rectify(left_view, right_view, given_mask);
   if (s.rectifier) clock.lap("rectification");
-  s.input.set(s.left, s.right, s.threads, chooseIsa(s.options.isa));
+  s.input.set(s.left, s.right, s.threads, sgmKernels(chooseIsa(s.options.isa)));
   requireRangeFits(s.options.min_disparity, s.options.num_disparities, s.left.cols);
   requireMaskFits(mask, s.left);
   clock.lap("input");

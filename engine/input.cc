@@ -6,7 +6,6 @@
 #include <string>
 
 #include "core/parallel.h"
-#include "sgm/kernels.h"
 
 namespace pomona {
 namespace {
@@ -81,7 +80,7 @@ ImageView<const std::uint8_t> shiftedDown(ImageView<const std::uint16_t> in, int
 
 }  // namespace
 
-void InputPair::set(const cv::Mat& left, const cv::Mat& right, int threads, Isa isa) {
+void InputPair::set(const cv::Mat& left, const cv::Mat& right, int threads, const SgmKernels& kernels) {
   requireImage("left", left);
   requireImage("right", right);
   if (left.size() != right.size())
@@ -91,7 +90,6 @@ void InputPair::set(const cv::Mat& left, const cv::Mat& right, int threads, Isa 
     throw std::invalid_argument("right is of type " + cv::typeToString(right.type()) + " but left is " +
                                 cv::typeToString(left.type()) + "; both views must have the same type");
 
-  const SgmKernels& kernels = sgmKernels(isa);
   const cv::Mat* images[2] = {&left, &right};
   ImageView<const std::uint8_t> gray8[2];
   ImageView<const std::uint16_t> gray16[2];

@@ -7,6 +7,7 @@
 #include "core/cpu.h"
 #include "core/image.h"
 #include "pomona/options.h"
+#include "sgm/kernels.h"
 #include "sgm/matcher.h"
 
 namespace pomona {
@@ -16,7 +17,8 @@ namespace pomona {
 class InputPair {
  public:
   /// Throws std::invalid_argument naming the argument, what it is and what is allowed.
-  void set(const cv::Mat& left, const cv::Mat& right, int threads, Isa isa = chooseIsa({}));
+  void set(const cv::Mat& left, const cv::Mat& right, int threads,
+           const SgmKernels& kernels = sgmKernels(chooseIsa({})));
 
   int width() const { return views_.left.width; }
   int height() const { return views_.left.height; }

@@ -41,7 +41,7 @@ int estimateNumDisparities(const cv::Mat& left, const cv::Mat& right, const Opti
   const int min_disparity = options.min_disparity;
   const Isa isa = chooseIsa(options.isa);
   InputPair input;
-  input.set(left, right, threads, isa);
+  input.set(left, right, threads, sgmKernels(isa));
   requireMaskFits(mask, left);
   requireRangeFits(min_disparity, 1, left.cols);
 

@@ -264,7 +264,8 @@ TEST(MeasureObject, RefusesWhatIsNotValid) {
     expectContains(messageOf<std::invalid_argument>([&] { measureObject(result, camera(), region); }), part);
   };
   refused(cv::Rect(3, 3, 0, 5), "box");
-  refused(Circle{{3, 3}, 0}, "radius");
+  refused(Circle{{3, 3}, 0}, "radius must be above 0");
+  refused(Circle{{3, 3}, 1e9}, "larger than any image");
   refused(Circle{{std::nan(""), 3}, 1}, "centre");
   refused(Polygon{{0, 0}, {1, 1}}, "three corners");
   refused(Polygon{{0, 0}, {1, std::nan("")}, {2, 2}}, "corner");

@@ -138,6 +138,7 @@ TEST(PluginFile, WithoutWhatItNeedsIsRefused) {
   expectContains(refusal(kBroken + "/ThrowsInCreate.so"), "no luck");
   expectContains(refusal(kBroken + "/ThrowsNumberInCreate.so"), "no std::exception");
   expectContains(refusal(kBroken + "/ThrowsInName.so"), "nameless");
+  expectContains(refusal(kBroken + "/ThrowsInEntry.so"), "no std::exception");
   expectContains(refusal(kBroken + "/BadName.so"), "'Bad name'");
   expectContains(refusal(kBroken + "/BadDefault.so"), "broken: ratio is '0.5'; allowed: 0 to 0.25");
   expectContains(refusal(kBroken + "/TwoParametersOfOneName.so"), "two parameters are called 'ratio'");
@@ -166,7 +167,7 @@ TEST(PluginHost, KeepsTheGoodAndNamesTheOthers) {
   PluginHost host({kGood, kBroken, kGood, "/no/such/folder"});
   ASSERT_EQ(host.plugins().size(), 1u);
   EXPECT_EQ(host.plugin("middle").path(), kGood + "/middle.so");
-  EXPECT_EQ(host.refused().size(), 15u);  // 14 files, and the folder
+  EXPECT_EQ(host.refused().size(), 16u);  // 15 files, and the folder
   std::optional<std::string> same_name, folder;
   for (const auto& [path, reason] : host.refused()) {
     if (path.ends_with("SameName.so")) same_name = reason;

@@ -123,6 +123,16 @@ class RigTest(unittest.TestCase):
         self.accept("rig", "convert", "ros", "--to", "middlebury", "-o", "calib.txt")
         self.assertEqual(before.splitlines()[-5:], self.accept("rig", "show", "calib.txt").splitlines()[-5:])
 
+    def test_calibration_leaves_out_a_damaged_picture(self):
+        for name in sorted(os.listdir(self.boards)):
+            with open(self.board(name), "rb") as file:
+                data = file.read()
+            with open(os.path.join(self.folder, name), "wb") as file:
+                file.write(b"nothing" if name == "left01.png" else data)
+        report = self.accept("calibrate", "left*.png", "right*.png", "--square", "25mm", "-o", "rig.yml")
+        self.assertIn("left01.png               rejected: left01.png: is not an image", report)
+        self.assertIn("11 of 12 used", report)
+
     def test_check_of_a_rectified_pair(self):
         self.accept("render", "boxes", "--size", "480x360", "-o", "scene")
         self.assertIn("verdict   aligned", self.accept("check", "scene/im0.png", "scene/im1.png"))

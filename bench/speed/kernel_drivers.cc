@@ -22,6 +22,13 @@ ImageView<const float> viewOf(const cv::Mat& map) {
   return {map.ptr<float>(), map.cols, map.rows, static_cast<std::ptrdiff_t>(map.step1())};
 }
 
+void runInput(KernelMaterial& m, const KernelTables& tables) {
+  m.made_gray.set(m.pair.left, m.pair.right, 1, tables.sgm);
+}
+void runDeepInput(KernelMaterial& m, const KernelTables& tables) {
+  m.made_gray.set(m.deep_left, m.deep_right, 1, tables.sgm);
+}
+
 KernelDriver matchDriver(const char* name, const Options& o, SubpixelMethod subpixel,
                          std::function<void(const KernelMaterial&, MatchInput&, MatchOptions&)> change = {}) {
   const auto run = [o, subpixel, change](KernelMaterial& m, const KernelTables& tables) {
@@ -139,6 +146,8 @@ KernelMaterial::KernelMaterial(const FrameSize& frame_size, const BenchmarkInput
     : size(frame_size), pair(inputs.at(frame_size)) {
   options.num_disparities = size.disparities;
   input.set(pair.left, pair.right, 1);
+  pair.left.convertTo(deep_left, CV_16U, 257);
+  pair.right.convertTo(deep_right, CV_16U, 257);
   const MatchInput& in = input.views();
   for (auto [from, to] : {std::pair{in.left, &left16}, std::pair{in.right, &right16}}) {
     to->resize(from.width, from.height);
@@ -181,7 +190,9 @@ KernelMaterial::KernelMaterial(const FrameSize& frame_size, const BenchmarkInput
 std::vector<KernelDriver> kernelDrivers() {
   constexpr double kQuarter = 1.0 / 16;
   std::vector<KernelDriver> drivers = matchDrivers();
-  drivers.insert(drivers.end(), {{"checks", 1, runChecks},
+  drivers.insert(drivers.end(), {{"input", 1, runInput},
+                                 {"input-16-bit", 1, runDeepInput},
+                                 {"checks", 1, runChecks},
                                  {"trust", 1, runTrust},
                                  {"medians", 1, runMedians},
                                  {"bilateral-at-quarter", kQuarter, runBilateral},

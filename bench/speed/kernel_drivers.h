@@ -46,6 +46,7 @@ struct KernelMaterial {
   InputPair input;
   Options options;  ///< of the preset `balanced`
   Image<std::uint16_t> left16, right16;
+  cv::Mat deep_left, deep_right;  ///< 16-bit colour
   Image<float> sparse_disparity, right_disparity, dense;
   Image<std::uint8_t> sparse_state;
   Image<std::uint8_t> quarter_guide;
@@ -53,6 +54,7 @@ struct KernelMaterial {
   std::array<std::uint8_t, 65536> cost_table;
 
   // Outputs and scratch.
+  InputPair made_gray;
   SgmMatcher matcher;
   MatchMaps matched;
   Image<float> disparity, quarter_disparity;

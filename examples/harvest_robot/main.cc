@@ -17,6 +17,7 @@
 #include <opencv2/highgui.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -123,7 +124,9 @@ int run(const std::string& rig_path, const std::string& source, const std::strin
       cv::imshow("harvest", draw(engine.leftView(), picks));
       if (cv::waitKey(1) == 27) break;  // escape
     } else if (!drawing.empty()) {
-      cv::imwrite(cv::format("%s/frame%04d.png", drawing.c_str(), frame), draw(engine.leftView(), picks));
+      const std::string file = cv::format("%s/frame%04d.png", drawing.c_str(), frame);
+      if (!cv::imwrite(file, draw(engine.leftView(), picks)))
+        throw std::runtime_error(file + ": cannot be written");
     }
   }
   if (milliseconds.size() > 1) milliseconds.erase(milliseconds.begin());  // the first frame makes the buffers

@@ -55,7 +55,7 @@ const PluginEntry& entryOf(const std::string& path, void* library) {
   using EntryFunction = const PluginEntry* (*)();
   const auto function = reinterpret_cast<EntryFunction>(dlsym(library, "pomona_plugin_entry"));
   if (!function) refuse(path, "not a plugin: it has no symbol pomona_plugin_entry");
-  const PluginEntry* const entry = function();
+  const PluginEntry* const entry = guarded(path, [&] { return function(); });
   if (!entry) refuse(path, "not a plugin: pomona_plugin_entry() gave nothing");
   if (entry->abi_version != kPluginAbiVersion)
     refuse(path, "built for plugin interface " + std::to_string(entry->abi_version) + "; this Pomona has " +

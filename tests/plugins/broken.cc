@@ -20,6 +20,7 @@ enum Broken {
   kOtherBuild,
   kOtherLayout,
   kNoEntry,
+  kThrowsInEntry,
 };
 
 class Plugin final : public pomona::SparseStereoPlugin {
@@ -63,6 +64,7 @@ extern "C" [[gnu::visibility("default")]] const pomona::PluginEntry* pomona_plug
       POMONA_BROKEN == kOtherBuild ? "another compiler" : pomona::pluginBuildTag(),
       pomona::pluginStructBytes() + (POMONA_BROKEN == kOtherLayout ? 8u : 0u), create,
       [](pomona::SparseStereoPlugin* plugin) { delete plugin; }};
+  if (POMONA_BROKEN == kThrowsInEntry) throw 7;
   return POMONA_BROKEN == kNoEntry ? nullptr : &entry;
 }
 #endif
