@@ -80,7 +80,8 @@ POMONA_OP simd::U8 truncatedDifference(simd::U8 a, simd::U8 b, simd::U8 limit) {
 }
 
 template <int kVectors>
-void blendedCostOf(const BlendedCostRow& b) {
+void blendedCostOf(const BlendedCostRow& row) {
+  const BlendedCostRow b = row;
   const CensusCostRow& r = b.census;
   const int vectors = kVectors ? kVectors : r.vectors;
   const std::ptrdiff_t plane = r.right.plane_stride;
@@ -96,8 +97,9 @@ void blendedCostOf(const BlendedCostRow& b) {
       const simd::U8 s = truncatedDifference(simd::loadUnaligned(right + 4 * plane), sobel, sobel_limit);
       const simd::U8 g = truncatedDifference(simd::loadUnaligned(right + 5 * plane), gray, gray_limit);
       const simd::U8 differences = simd::average(s, simd::average(simd::average(g, zero), zero));
-      const simd::U8 cost = simd::add(hamming<4>(left, right, plane), differences);
-      simd::store(out, simd::max(simd::load(r.padding + j * simd::kBytes), cost));
+      simd::U8 cost = simd::add(hamming<4>(left, right, plane), differences);
+      if (r.padded) cost = simd::max(simd::load(r.padding + j * simd::kBytes), cost);
+      simd::store(out, cost);
     }
   }
 }
@@ -107,7 +109,8 @@ void blendedCost(const BlendedCostRow& r) {
 }
 
 template <int kVectors>
-void supportOf(const SupportRow& r) {
+void supportOf(const SupportRow& row) {
+  const SupportRow r = row;
   const int vectors = kVectors ? kVectors : r.vectors;
   const std::ptrdiff_t pixel = static_cast<std::ptrdiff_t>(vectors) * simd::kBytes;
   for (int x = 0; x < r.width; ++x) {
