@@ -204,7 +204,8 @@ class GoodInput(CommandTest):
         self.assertEqual(counts[0], counts[1])
 
     def test_rows_that_do_not_match_are_said(self):
-        self.assert_accepted(self.run_command("render", "boxes", "--size", "480x320", "--right-shift", "2", "-o", "off"))
+        self.assert_accepted(self.run_command("render", "boxes", "--size", "480x320", "--right-shift", "2",
+                                              "-o", "off"))
         lines = self.run_command("compute", "off/im0.png", "off/im1.png", "-o", "off.pfm").stdout.splitlines()
         rows = next(line for line in lines if line.startswith("rows"))
         self.assertRegex(rows, "right view -[12][.][0-9]+ px.*; matched after moving it; warning: .* new calibration$")

@@ -100,7 +100,7 @@ with tempfile.TemporaryDirectory() as folder:
     assert {fruit["id"] for fruit in fruits if fruit["visible_share"] >= 0.3} <= found.keys(), found
     assert max(found.values()) < 0.01, found
 
-    for nearest, part in (("abc", "HARVEST_NEAREST_M is 'abc'"), ("3", "HARVEST_NEAREST_M to HARVEST_FARTHEST_M is 3 to"),
+    for nearest, part in (("abc", "HARVEST_NEAREST_M is 'abc'"), ("3", "HARVEST_FARTHEST_M is 3 to 1.98 m"),
                           ("0.001", "at most 1024 disparities")):
         assert part in refusal(HARVEST, calibration, frames, HARVEST_NEAREST_M=nearest), part
     assert "compute_disparity: left is an empty image" in refusal(COMPUTE, "absent.png", "absent.png", "out.png")
