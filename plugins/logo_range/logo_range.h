@@ -3,7 +3,7 @@
 
 #include <opencv2/core.hpp>
 
-#include "plugins/common/object_match.h"
+#include "plugins/common/object_place.h"
 #include "plugins/common/object_range.h"
 #include "pomona/plugin.h"
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "plugins/common/matching.h"
-#include "plugins/common/object_match.h"
+#include "plugins/common/object_place.h"
 #include "plugins/common/object_range.h"
 #include "plugins/segment_recognition/regions.h"
 #include "pomona/plugin.h"
