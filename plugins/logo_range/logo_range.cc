@@ -34,7 +34,7 @@ class SignRanger {
     Stopwatch watch;
     features_ = finder_.find(left_, searchMask(left_, mask, options.upper_half));
     result_.figures.push_back({"features left", double(features_.count()), ""});
-    result_.figures.push_back({"features", watch.lapMs(), "ms"});
+    result_.figures.push_back({"feature time", watch.lapMs(), "ms"});
     matches_ = ObjectMatcher(database).match(features_.descriptors);
     result_.figures.push_back({"matching", watch.lapMs(), "ms"});
   }

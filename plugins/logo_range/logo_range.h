@@ -10,7 +10,7 @@
 namespace pomona {
 
 struct LogoRangeOptions {
-  double sensitivity = 1;   ///< of the features in the views, see FeatureFinder
+  double sensitivity = 2;   ///< of the features in the views, see FeatureFinder
   bool upper_half = false;  ///< look for signs in the upper half of the left view only
   LocateOptions locate;
   double pair_ratio = 0.85;  ///< see MatchOptions

@@ -31,7 +31,7 @@ struct RecognitionOptions {
   FeatureDisparity disparity = FeatureDisparity::kMap;
   bool engine_map = true;  ///< regions by the engine's dense map, else by block matching
   RegionOptions regions;
-  double sensitivity = 1;   ///< see FeatureFinder
+  double sensitivity = 2;   ///< see FeatureFinder
   double pair_ratio = 0.8;  ///< of partners, see MatchOptions
   double max_epipolar_px = 1;
   LocateOptions locate;
