@@ -239,8 +239,7 @@ TEST_F(SegmentRecognitionPlugin, FindsAlteredPicturesInRealPairs) {
     const std::string picture = folder_.file(query.scene + ".png");
     writeFile(picture, encodeImage(pictureOf(query, real.left)));
     PluginSettings settings = plugin_.settings();
-    settings.assign(std::vector<std::string>{"objects=" + picture, "far_m=1000", "views=wide",
-                                             "picture_sensitivity=2", "sensitivity=2"});
+    settings.assign(std::vector<std::string>{"objects=" + picture, "far_m=1000"});
     const SparseResult result = plugin_.run(real.left, real.right, real.calibration, settings);
     const SparseObject& object = result.objects.at(0);
     ASSERT_TRUE(object.found()) << query.scene << " " << query.label << ": " << object.why_not;

@@ -82,41 +82,15 @@ cv::Rect2f jittered(const cv::Rect2f& box, Random& random) {
   return {first, box.br() + cv::Point2f(off(box.width), off(box.height))};
 }
 
-class Comparison {
+// The plugin, looking for one picture.
+class SignFinder {
  public:
-  Comparison() {
-    writeFile(folder_.file("sign.png"), encodeImage(signPicture()));
+  explicit SignFinder(const cv::Mat& picture) {
+    writeFile(folder_.file("sign.png"), encodeImage(picture));
     plugin_ = &host_.plugin("logo-range");
   }
 
-  void add(int number) {
-    const SignScene scene = signScene(number);
-    addPlugin(scene, faithful_, "faithful");
-    addPlugin(scene, default_, "default");
-    StereoResult dense;
-    Options options = Options::preset("balanced");
-    options.num_disparities = scene.pair.calibration.num_disparities;
-    const double dense_ms = millisecondsOf(
-        [&] { dense = computeDisparity(scene.pair.left.image, scene.pair.right.image, options); });
-    addOutline(scene, dense, dense_ms);
-    addBoxes(scene, dense, dense_ms, static_cast<std::uint64_t>(number));
-  }
-
-  void write(std::ostream& out) const {
-    out << "| | found | at 0, 15, 30, 45 degrees | mean error, % | largest, % | bearing off, degrees | "
-           "within 2 sigma, "
-           "% | ms |\n|---|--:|---|--:|--:|--:|--:|--:|\n"
-        << "| published, SURF | | none beyond 30 | 12 | | | | |\n";
-    faithful_.write(out);
-    default_.write(out);
-    outline_.write(out);
-    out << "| published, detector's boxes | | | 29 | | | | |\n";
-    centers_.write(out);
-    boxes_.write(out);
-  }
-
- private:
-  void addPlugin(const SignScene& scene, Way& way, const std::string& variant) {
+  void add(const SignScene& scene, Way& way, const std::string& variant) {
     PluginSettings settings = plugin_->settings();
     settings.set("variant", variant);
     settings.set("objects", folder_.file("sign.png"));
@@ -130,6 +104,43 @@ class Comparison {
     way.add(scene, rangedOf(result), ms);
   }
 
+ private:
+  TemporaryFolder folder_;
+  PluginHost host_;
+  LoadedPlugin* plugin_ = nullptr;
+  std::string learned_;
+};
+
+constexpr const char* kHead =
+    "| | found | at 0, 15, 30, 45 degrees | mean error, % | largest, % | bearing off, degrees | "
+    "within 2 sigma, % | ms |\n|---|--:|---|--:|--:|--:|--:|--:|\n";
+
+class Comparison {
+ public:
+  void add(int number) {
+    const SignScene scene = signScene(number);
+    finder_.add(scene, faithful_, "faithful");
+    finder_.add(scene, default_, "default");
+    StereoResult dense;
+    Options options = Options::preset("balanced");
+    options.num_disparities = scene.pair.calibration.num_disparities;
+    const double dense_ms = millisecondsOf(
+        [&] { dense = computeDisparity(scene.pair.left.image, scene.pair.right.image, options); });
+    addOutline(scene, dense, dense_ms);
+    addBoxes(scene, dense, dense_ms, static_cast<std::uint64_t>(number));
+  }
+
+  void write(std::ostream& out) const {
+    out << kHead << "| published, SURF | | none beyond 30 | 12 | | | | |\n";
+    faithful_.write(out);
+    default_.write(out);
+    outline_.write(out);
+    out << "| published, detector's boxes | | | 29 | | | | |\n";
+    centers_.write(out);
+    boxes_.write(out);
+  }
+
+ private:
   void addOutline(const SignScene& scene, const StereoResult& dense, double dense_ms) {
     MeasureOptions options;
     options.shape = ObjectShape::kSurface;
@@ -153,10 +164,7 @@ class Comparison {
     boxes_.add(scene, run(BoxRanging::kDense), dense_ms);
   }
 
-  TemporaryFolder folder_;
-  PluginHost host_;
-  LoadedPlugin* plugin_ = nullptr;
-  std::string learned_;
+  SignFinder finder_{signPicture()};
   Way faithful_{"`variant=faithful`"}, default_{"default"},
       outline_{"dense map (`balanced`) in the true outline"};
   Way centers_{"boxes off by up to 5 %, `box_ranging=centers`"},
@@ -172,6 +180,27 @@ void writeLogoRangeTable(std::ostream& out, const SparseTableOptions& options) {
   comparison.write(out);
   if (!options.pictures.empty())
     writeFile(options.pictures + "/shop-front.png", encodeImage(signScene(13).pair.left.image));
+}
+
+void writeOtherSignsTable(std::ostream& out, const SparseTableOptions&) {
+  constexpr double kDepths_m[] = {6, 10, 14}, kYaws_deg[] = {-45, 30, 45};
+  out << "## Other signs\n\nSigns of the renderer's own, learned from a view of them 4 m away.\n\n" << kHead;
+  for (const bool wide : {true, false}) {
+    const std::string signs = wide ? ", wide signs" : ", small signs";
+    Way faithful("`variant=faithful`" + signs), by_default("default" + signs);
+    for (std::uint64_t seed = 301; seed <= 302; ++seed) {
+      const StreetSign sign = streetSign(seed, wide);
+      SignFinder finder(sign.picture);
+      std::vector<SignScene> scenes;
+      for (const double depth_m : kDepths_m)
+        for (const double yaw_deg : kYaws_deg)
+          scenes.push_back(signScene(sign, depth_m, yaw_deg, 10 * seed + scenes.size()));
+      for (const SignScene& scene : scenes) finder.add(scene, faithful, "faithful");
+      for (const SignScene& scene : scenes) finder.add(scene, by_default, "default");
+    }
+    faithful.write(out);
+    by_default.write(out);
+  }
 }
 
 }  // namespace pomona

@@ -21,6 +21,7 @@ constexpr Table kTables[] = {{"region-sift", writeRegionSiftTable},
                              {"sobel-sift", writeSobelSiftTable},
                              {"segment-recognition", writeSegmentRecognitionTable},
                              {"logo-range", writeLogoRangeTable},
+                             {"other-signs", writeOtherSignsTable},
                              {"real-queries", writeRealQueryTable}};
 
 std::vector<std::string> tableNames() {

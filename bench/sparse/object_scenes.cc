@@ -96,6 +96,38 @@ Surface panel(const Vec3d& center, double half_width_m, double half_height_m, do
           paint};
 }
 
+Storefront shopFront(double depth_m, double yaw_deg, std::uint64_t seed) {
+  StorefrontOptions options;
+  options.seed = seed;
+  options.walls = 1;
+  options.nearest_m = options.farthest_m = depth_m;
+  options.least_yaw_deg = options.greatest_yaw_deg = yaw_deg;
+  return storefront(sceneFor(namedRig("seed-003")), options);
+}
+
+// A shop front with `sign`, which hung frontally, in place of its own.
+SignScene sceneOf(const Surface& sign, double depth_m, double yaw_deg, std::uint64_t seed) {
+  SignScene scene;
+  scene.depth_m = depth_m;
+  scene.yaw_deg = yaw_deg;
+  Storefront street = shopFront(depth_m, yaw_deg, seed);
+  const double half_view_m = 0.5 * depth_m * street.scene.width / street.scene.focal_px;
+  const double aside_m = Random(seed).between(-0.3, 0.3) * half_view_m;
+  for (Surface& surface : street.scene.surfaces) surface.center[0] += aside_m;
+  Surface& hung = street.scene.surfaces[street.signs[0].surface];
+  const cv::Vec2d turn = cosineAndSine(yaw_deg);
+  hung.paint = sign.paint;
+  hung.u = Vec3d(turn[0], 0, turn[1]) * cv::norm(sign.u);
+  hung.v = sign.v;
+  scene.distance_m = cv::norm(hung.center);
+  scene.bearing_deg = std::atan2(hung.center[0], hung.center[2]) * 180 / CV_PI;
+  scene.left_box_px = boxOf(street.scene, hung, false);
+  scene.right_box_px = boxOf(street.scene, hung, true);
+  for (const Vec3d& corner : cornersOf(hung)) scene.outline_px.push_back(pixelOf(street.scene, corner));
+  scene.pair = render(street.scene, plainCamera(seed));
+  return scene;
+}
+
 }  // namespace
 
 cv::Mat signPicture() {
@@ -139,27 +171,21 @@ cv::Mat coverPicture(int number) {
 
 SignScene signScene(int number) {
   constexpr double kDepths_m[] = {5.48, 8.53, 11.58, 14.63};
-  SignScene scene;
-  scene.depth_m = kDepths_m[number / 7];
-  scene.yaw_deg = 15.0 * (number % 7 - 3);
-  StorefrontOptions options;
-  options.seed = 100 + static_cast<std::uint64_t>(number);
-  options.walls = 1;
-  options.nearest_m = options.farthest_m = scene.depth_m;
-  options.least_yaw_deg = options.greatest_yaw_deg = scene.yaw_deg;
-  Storefront street = storefront(sceneFor(namedRig("seed-003")), options);
-  const double half_view_m = 0.5 * scene.depth_m * street.scene.width / street.scene.focal_px;
-  const double aside_m = Random(options.seed).between(-0.3, 0.3) * half_view_m;
-  for (Surface& surface : street.scene.surfaces) surface.center[0] += aside_m;
-  Surface& sign = street.scene.surfaces[street.signs[0].surface];
-  sign = panel(sign.center, 1.2, 0.4, scene.yaw_deg, 0, signPicture());
-  scene.distance_m = cv::norm(sign.center);
-  scene.bearing_deg = std::atan2(sign.center[0], sign.center[2]) * 180 / CV_PI;
-  scene.left_box_px = boxOf(street.scene, sign, false);
-  scene.right_box_px = boxOf(street.scene, sign, true);
-  for (const Vec3d& corner : cornersOf(sign)) scene.outline_px.push_back(pixelOf(street.scene, corner));
-  scene.pair = render(street.scene, plainCamera(options.seed));
-  return scene;
+  return sceneOf(panel({}, 1.2, 0.4, 0, 0, signPicture()), kDepths_m[number / 7], 15.0 * (number % 7 - 3),
+                 100 + static_cast<std::uint64_t>(number));
+}
+
+StreetSign streetSign(std::uint64_t seed, bool wide) {
+  constexpr double kDepth_m = 4;
+  const Storefront street = shopFront(kDepth_m, 0, seed);
+  StreetSign sign{street.scene.surfaces[street.signs[wide ? 0 : 1].surface], {}};
+  const cv::Mat view = render(street.scene, plainCamera(seed)).left.image;
+  sign.picture = view(cv::Rect(boxOf(street.scene, sign.surface, false))).clone();
+  return sign;
+}
+
+SignScene signScene(const StreetSign& sign, double depth_m, double yaw_deg, std::uint64_t seed) {
+  return sceneOf(sign.surface, depth_m, yaw_deg, seed);
 }
 
 ObjectScene objectScene(int number) {

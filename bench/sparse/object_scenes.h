@@ -32,6 +32,17 @@ struct SignScene {
 constexpr int kSignScenes = 28;
 SignScene signScene(int number);
 
+/// A sign of the renderer's own shop fronts, 4 m away: `wide` ones are eight times as wide as high, others
+/// seven times and shorter. Its picture is cut from a view, noise and all.
+struct StreetSign {
+  Surface surface;
+  cv::Mat picture;
+};
+StreetSign streetSign(std::uint64_t seed, bool wide);
+
+/// That sign, of the same size, elsewhere in another street.
+SignScene signScene(const StreetSign& sign, double depth_m, double yaw_deg, std::uint64_t seed);
+
 /// A flat object in a room.
 struct PlacedObject {
   int cover = 0;                   ///< its picture is coverPicture(cover)

@@ -75,7 +75,7 @@ class Way {
           compareFeatures(pair, scene.pair.calibration, {}, dense, matcher_, options_);
       if (i == 0) judge(scene, compared);
       regions.push_back(figureOf(compared.figures, "regions", "ms"));
-      features.push_back(figureOf(compared.figures, "features", "ms"));
+      features.push_back(figureOf(compared.figures, "feature time", "ms"));
       matching.push_back(figureOf(compared.figures, "matching", "ms"));
       if (i == 0) features_ += figureOf(compared.figures, "features", "");
     }
@@ -163,6 +163,7 @@ std::vector<Way> ways(int repetitions) {
   published.engine_map = false;
   published.ranging = ObjectRanging::kMean;
   published.locate.model = PlaceModel::kHomography;
+  published.sensitivity = 1;
   published.locate.ratio = 0.7;
   published.locate.min_agreeing = 4;
   const ObjectDatabase frontal = coversDatabase(publishedKind(), 1, {});
@@ -174,10 +175,12 @@ std::vector<Way> ways(int repetitions) {
   all.emplace_back("+ E", frontal, published, repetitions);
   published.filter = FeatureFilter::kDisparity;
   all.emplace_back("+ E + D (`variant=faithful`)", frontal, published, repetitions);
-  all.emplace_back("default", coversDatabase(FeatureKind::kRootSift, 1, {}), RecognitionOptions(),
+  RecognitionOptions quick;
+  quick.sensitivity = 1;
+  all.emplace_back("`views=frontal`, `picture_sensitivity=1`, `sensitivity=1`",
+                   coversDatabase(FeatureKind::kRootSift, 1, {}), quick, repetitions);
+  all.emplace_back("default", coversDatabase(FeatureKind::kRootSift, 2, wideYaws()), RecognitionOptions(),
                    repetitions);
-  all.emplace_back("`views=wide`, `picture_sensitivity=2`",
-                   coversDatabase(FeatureKind::kRootSift, 2, wideYaws()), RecognitionOptions(), repetitions);
   return all;
 }
 

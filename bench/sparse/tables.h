@@ -17,6 +17,7 @@ void writeRegionSiftTable(std::ostream& out, const SparseTableOptions& options);
 void writeSobelSiftTable(std::ostream& out, const SparseTableOptions& options);
 void writeSegmentRecognitionTable(std::ostream& out, const SparseTableOptions& options);
 void writeLogoRangeTable(std::ostream& out, const SparseTableOptions& options);
+void writeOtherSignsTable(std::ostream& out, const SparseTableOptions& options);
 void writeRealQueryTable(std::ostream& out, const SparseTableOptions& options);
 
 }  // namespace pomona

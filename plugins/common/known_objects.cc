@@ -33,17 +33,14 @@ std::string keyOf(const PluginSettings& settings) {
 
 }  // namespace
 
-std::vector<PluginParameter> KnownObjects::parameters(Thoroughness thoroughness) {
-  const bool wide = thoroughness == Thoroughness::kWide;
-  std::vector<std::string> views = {"wide", "frontal"};
-  if (!wide) std::swap(views[0], views[1]);
-  return {textParameter("objects", "A database (.objects), or pictures of the objects, separated by commas"),
-          choiceParameter("features", "To learn pictures by; a database knows its own", featureNames()),
-          choiceParameter(
-              "views", "To learn of each picture: as if turned by up to 60 degrees, or itself alone", views),
-          realParameter("picture_sensitivity", "Divides the contrast that features of pictures need",
-                        wide ? 2 : 1, 0.1, 20),
-          textParameter("save_objects", "Database (.objects) to write what was learned to")};
+std::vector<PluginParameter> KnownObjects::parameters() {
+  return {
+      textParameter("objects", "A database (.objects), or pictures of the objects, separated by commas"),
+      choiceParameter("features", "To learn pictures by; a database knows its own", featureNames()),
+      choiceParameter("views", "To learn of each picture: as if turned by up to 60 degrees, or itself alone",
+                      {"wide", "frontal"}),
+      realParameter("picture_sensitivity", "Divides the contrast that features of pictures need", 2, 0.1, 20),
+      textParameter("save_objects", "Database (.objects) to write what was learned to")};
 }
 
 std::vector<std::pair<std::string, std::string>> KnownObjects::faithful(const std::string& features) {

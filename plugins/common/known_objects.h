@@ -10,17 +10,12 @@
 
 namespace pomona {
 
-/// What pictures are learned by unless the settings say otherwise.
-enum class Thoroughness {
-  kFrontal,  ///< the picture itself, and what stands out in it: quick to compare with
-  kWide,     ///< as if turned by up to 60 degrees, too, and fainter features
-};
-
 /// Opens the objects that settings name, and keeps them for the next run, until the files change.
 class KnownObjects {
  public:
-  /// objects, features, views, picture_sensitivity, save_objects.
-  static std::vector<PluginParameter> parameters(Thoroughness thoroughness);
+  /// objects, features, views, picture_sensitivity, save_objects. By default pictures are learned thoroughly:
+  /// as if turned by up to 60 degrees, too, and with their fainter features.
+  static std::vector<PluginParameter> parameters();
   /// What makes them those of a published method: one view, `features` (SIFT where this build lacks them).
   static std::vector<std::pair<std::string, std::string>> faithful(const std::string& features);
 

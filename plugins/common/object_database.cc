@@ -76,6 +76,10 @@ ObjectDatabase openObjects(const std::string& paths, const TrainingOptions& opti
   ObjectDatabase database{options.kind, {}};
   std::istringstream list(paths);
   for (std::string path; std::getline(list, path, ',');) {
+    if (path.empty())
+      throw std::invalid_argument("objects is '" + paths +
+                                  "': it has an empty name; allowed: names separated by "
+                                  "single commas");
     const std::string extension = std::filesystem::path(path).extension();
     if (extension == ".objects" && path == paths) return readObjectDatabase(path);
     if (extension == ".objects")

@@ -32,9 +32,10 @@ class Reader {
  public:
   explicit Reader(const std::string& path) : path_(path), bytes_(readFile(path)) {}
 
+  bool isEmpty() const { return bytes_.empty(); }
   bool startsWith(std::string_view magic) const { return bytes_.starts_with(magic); }
   std::string_view text(std::size_t length, const char* what) {
-    if (bytes_.size() - at_ < length) fail(std::string("the file ends within ") + what);
+    if (bytes_.size() - at_ < length) fail(std::string("the file is cut off within ") + what);
     const std::string_view part = std::string_view(bytes_).substr(at_, length);
     at_ += length;
     return part;
@@ -50,12 +51,15 @@ class Reader {
     }
     return value;
   }
-  // How many of something that takes `bytes_each` follow: at least `low`, and never more than the rest of the
-  // file could hold.
-  std::uint32_t count(const char* what, std::uint32_t low, std::size_t bytes_each) {
+  // How many of something that takes `bytes_each` follow: never more than the rest of the file could hold.
+  std::uint32_t count(const char* what, std::size_t bytes_each) {
     const std::size_t rest = bytes_.size() - at_;
     const std::size_t most = rest < sizeof(std::uint32_t) ? 0 : (rest - sizeof(std::uint32_t)) / bytes_each;
-    return number<std::uint32_t>(what, low, std::max(low, static_cast<std::uint32_t>(most)));
+    const auto count = number<std::uint32_t>(what, 0, std::numeric_limits<std::uint32_t>::max());
+    if (count > most)
+      fail("the file is cut off: " + std::string(what) + " is " + std::to_string(count) + ", with room for " +
+           std::to_string(most));
+    return count;
   }
   void requireEnd() {
     if (at_ != bytes_.size()) fail("nothing is allowed after the last object");
@@ -88,7 +92,7 @@ KnownObject readObject(Reader& file, FeatureKind kind) {
   object.label = file.text(file.number<std::uint32_t>("the label's length", 1, kLongestLabel), "a label");
   object.size_px.width = file.number<std::int32_t>("width", 1, kLargestSide_px);
   object.size_px.height = file.number<std::int32_t>("height", 1, kLargestSide_px);
-  const std::uint32_t features = file.count("the number of features", 0, featureBytes(length));
+  const std::uint32_t features = file.count("the number of features", featureBytes(length));
   object.features.descriptors.create(static_cast<int>(features), length, CV_32F);
   for (std::uint32_t i = 0; i < features; ++i) {
     object.features.keypoints.push_back(readKeypoint(file, object.size_px));
@@ -125,6 +129,7 @@ std::string encodeObjectDatabase(const ObjectDatabase& database) {
 
 ObjectDatabase readObjectDatabase(const std::string& path) {
   Reader file(path);
+  if (file.isEmpty()) file.fail("the database is empty");
   if (!file.startsWith(kMagic)) file.fail("this is no database of objects");
   file.text(kMagic.size(), "the magic");
   file.number<std::uint32_t>("the version", kVersion, kVersion);
@@ -132,7 +137,8 @@ ObjectDatabase readObjectDatabase(const std::string& path) {
   const auto kind = file.number<std::uint32_t>("the kind of features", 1, 4);
   database.kind = static_cast<FeatureKind>(kind);
   featureKindOf(nameOf(database.kind));
-  const std::uint32_t objects = file.count("the number of objects", 1, 5 * sizeof(std::uint32_t));
+  const std::uint32_t objects = file.count("the number of objects", 5 * sizeof(std::uint32_t));
+  if (objects == 0) file.fail("the database is empty: the number of objects is 0");
   for (std::uint32_t i = 0; i < objects; ++i) database.objects.push_back(readObject(file, database.kind));
   file.requireEnd();
   return database;

@@ -1,10 +1,10 @@
 #include "plugins/common/object_range.h"
 
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <optional>
 #include <string>
 
-#include "plugins/common/disparity_plane.h"
 #include "plugins/common/triangulation.h"
 
 namespace pomona {
@@ -26,9 +26,40 @@ void setPoint(const cv::Point3d& point_m, double sigma_m, int support, SparseObj
   object.support = support;
 }
 
+void setOutline(const ObjectPlace& place, SparseObject& object) {
+  object.outline_px = place.outline_px;
+  object.box_px = cv::boundingRect(place.outline_px);
+}
+
+// Its origin is the object's middle.
+std::optional<DisparityPlane> surfaceOf(const cv::Mat& left, const cv::Mat& right,
+                                        const std::vector<SparsePoint>& points, const ObjectPlace& place) {
+  constexpr double kTolerance_px = 1;
+  std::vector<PlaceDisparity> disparities;
+  for (const SparsePoint& point : points) disparities.push_back({point.left_px, point.disparity_px});
+  const std::optional<DisparityPlane> plane =
+      fitDisparityPlane(disparities, place.middle_px, kTolerance_px, kLeastPoints);
+  if (!plane) return plane;
+  // Where the views can't be aligned, as on a glossy sign, the features' own plane it is.
+  const std::optional<DisparityPlane> aligned = alignDisparityPlane(left, right, place.outline_px, *plane);
+  return aligned ? aligned : plane;
+}
+
+void setMiddle(const StereoCalibration& rig, const DisparityPlane& plane, const ObjectPlace& place,
+               std::size_t support, SparseObject& object) {
+  const double by_place_px = std::hypot(plane.slope_x, plane.slope_y) * place.middle_sigma_px;
+  const cv::Point2f at = place.middle_px;
+  const cv::Point2f partner(static_cast<float>(place.middle_px.x - plane.disparity_px), at.y);
+  const SparsePoint point =
+      triangulate(rig, at, partner, static_cast<float>(std::hypot(plane.sigma_px, by_place_px)));
+  if (!std::isfinite(point.point_m.z)) return fail(0, object);
+  setPoint(point.point_m, point.sigma_z_m, static_cast<int>(support), object);
+}
+
 }  // namespace
 
-void rangeByMean(const std::vector<SparsePoint>& points, SparseObject& object) {
+void rangeByMean(const std::vector<SparsePoint>& points, const ObjectPlace& place, SparseObject& object) {
+  setOutline(place, object);
   if (static_cast<int>(points.size()) < kLeastPoints) return fail(points.size(), object);
   double sum = 0, squares = 0;
   for (const SparsePoint& point : points) sum += point.point_m.z;
@@ -46,22 +77,32 @@ void rangeByMean(const std::vector<SparsePoint>& points, SparseObject& object) {
   setPoint(middle * (1.0 / kept), deviation / std::sqrt(static_cast<double>(kept)), kept, object);
 }
 
-void rangeByPlane(const cv::Mat& left, const cv::Mat& right, const StereoCalibration& rig,
-                  const std::vector<SparsePoint>& points, const cv::Point2d& middle_px,
-                  SparseObject& object) {
-  constexpr double kTolerance_px = 1;
-  std::vector<PlaceDisparity> disparities;
-  for (const SparsePoint& point : points) disparities.push_back({point.left_px, point.disparity_px});
-  std::optional<DisparityPlane> plane =
-      fitDisparityPlane(disparities, middle_px, kTolerance_px, kLeastPoints);
-  if (!plane) return fail(points.size(), object);
-  // Where the views can't be aligned, as on a glossy sign, the features' own plane it is.
-  if (const auto aligned = alignDisparityPlane(left, right, object.outline_px, *plane)) plane = aligned;
-  const cv::Point2f at = middle_px;
-  const cv::Point2f partner(static_cast<float>(middle_px.x - plane->disparity_px), at.y);
-  const SparsePoint point = triangulate(rig, at, partner, static_cast<float>(plane->sigma_px));
-  if (!std::isfinite(point.point_m.z)) return fail(0, object);
-  setPoint(point.point_m, point.sigma_z_m, static_cast<int>(points.size()), object);
+std::vector<SparsePoint> rangeByPlane(const cv::Mat& left, const cv::Mat& right, const StereoCalibration& rig,
+                                      const FlatObject& flat, ObjectPlace place, SparseObject& object) {
+  constexpr int kRounds = 4;
+  constexpr double kStill_px = 0.1;
+  std::vector<SparsePoint> points = flat.points_at(place);
+  std::optional<DisparityPlane> plane = surfaceOf(left, right, points, place);
+  for (int round = 0; plane && round < kRounds; ++round) {
+    DisparityPlane nearness = *plane;
+    nearness.disparity_px += rig.doffs_px;
+    const ObjectPlace next = flat.place_on(nearness);
+    if (!next.found() || next.agreeing.size() < place.agreeing.size()) break;
+    std::vector<SparsePoint> next_points = flat.points_at(next);
+    const std::optional<DisparityPlane> next_plane = surfaceOf(left, right, next_points, next);
+    if (!next_plane) break;
+    const double moved_px = cv::norm(next.middle_px - place.middle_px);
+    place = next;
+    points = std::move(next_points);
+    plane = next_plane;
+    if (moved_px < kStill_px) break;
+  }
+  setOutline(place, object);
+  if (plane)
+    setMiddle(rig, *plane, place, points.size(), object);
+  else
+    fail(points.size(), object);
+  return points;
 }
 
 double largestDisparity(const StereoCalibration& rig, const cv::Mat& view) {

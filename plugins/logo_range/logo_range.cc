@@ -34,7 +34,7 @@ class SignRanger {
     Stopwatch watch;
     features_ = finder_.find(left_, searchMask(left_, mask, options.upper_half));
     result_.figures.push_back({"features left", double(features_.count()), ""});
-    result_.figures.push_back({"features", watch.lapMs(), "ms"});
+    result_.figures.push_back({"feature time", watch.lapMs(), "ms"});
     matches_ = ObjectMatcher(database).match(features_.descriptors);
     result_.figures.push_back({"matching", watch.lapMs(), "ms"});
   }
@@ -55,20 +55,24 @@ class SignRanger {
     const ObjectPlace place = locateObject(known, number, features_.keypoints, matches_, options_.locate);
     object.why_not = place.why_not;
     if (place.found()) {
-      object.outline_px = place.outline_px;
-      object.box_px = cv::boundingRect(place.outline_px);
-      const std::vector<SparsePoint> points = pointsOn(number, place);
+      const std::vector<SparsePoint> points = range(number, place, object);
       result_.points.insert(result_.points.end(), points.begin(), points.end());
-      if (options_.ranging == ObjectRanging::kMean)
-        rangeByMean(points, object);
-      else
-        rangeByPlane(left_, right_, rig_, points, mapped(place.image_from_picture, middleOf(known)), object);
     }
     result_.objects.push_back(std::move(object));
   }
 
-  static cv::Point2d middleOf(const KnownObject& known) {
-    return {(known.size_px.width - 1) / 2.0, (known.size_px.height - 1) / 2.0};
+  std::vector<SparsePoint> range(int number, const ObjectPlace& place, SparseObject& object) {
+    if (options_.ranging == ObjectRanging::kMean) {
+      std::vector<SparsePoint> points = pointsOn(number, place);
+      rangeByMean(points, place, object);
+      return points;
+    }
+    const FlatObject flat{[&](const ObjectPlace& at) { return pointsOn(number, at); },
+                          [&](const DisparityPlane& plane) {
+                            return locateOnPlane(database_.objects[number], number, features_.keypoints,
+                                                 matches_, plane, options_.locate);
+                          }};
+    return rangeByPlane(left_, right_, rig_, flat, place, object);
   }
 
   // Features of the left view on the sign: as published those that were recognised; else all inside the

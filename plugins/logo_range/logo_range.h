@@ -3,14 +3,14 @@
 
 #include <opencv2/core.hpp>
 
-#include "plugins/common/object_match.h"
+#include "plugins/common/object_place.h"
 #include "plugins/common/object_range.h"
 #include "pomona/plugin.h"
 
 namespace pomona {
 
 struct LogoRangeOptions {
-  double sensitivity = 1;   ///< of the features in the views, see FeatureFinder
+  double sensitivity = 2;   ///< of the features in the views, see FeatureFinder
   bool upper_half = false;  ///< look for signs in the upper half of the left view only
   LocateOptions locate;
   double pair_ratio = 0.85;  ///< see MatchOptions

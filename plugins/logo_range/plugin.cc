@@ -19,10 +19,10 @@ class LogoRange final : public SparseStereoPlugin {
   }
 
   std::vector<PluginParameter> parameters() const override {
-    std::vector<PluginParameter> parameters = KnownObjects::parameters(Thoroughness::kWide);
+    std::vector<PluginParameter> parameters = KnownObjects::parameters();
     const std::vector<PluginParameter> own = {
         switchParameter("upper_half", "Look for signs in the upper half of the left view only", false),
-        realParameter("sensitivity", "Divides the contrast that features of the views need", 1, 0.1, 20),
+        realParameter("sensitivity", "Divides the contrast that features of the views need", 2, 0.1, 20),
         realParameter("ratio", "Of the distances to the nearest and the next known feature, at most", 0.85, 0,
                       1),
         realParameter("reprojection_px", "How far off a match may be from where the sign has it", 3, 0.1, 50),
@@ -49,6 +49,7 @@ class LogoRange final : public SparseStereoPlugin {
   std::vector<ParameterSet> parameterSets() const override {
     std::vector<std::pair<std::string, std::string>> values = KnownObjects::faithful("surf-128");
     values.insert(values.end(), {{"upper_half", "on"},
+                                 {"sensitivity", "1"},
                                  {"ratio", "0.7"},
                                  {"place_model", "homography"},
                                  {"min_agreeing", "4"},

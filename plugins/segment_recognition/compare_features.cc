@@ -28,11 +28,11 @@ class Comparison {
     result_.figures.push_back({"regions", watch_.lapMs(), "ms"});
     const Features left = finder_.find(left_, mask_);
     if (usesMap()) {
-      figure("features", left.count());
+      countFeatures(left.count());
       for (int i = 0; i < left.count(); ++i) addByMap(left, i);
     } else {
       const Features right = finder_.find(right_, right_mask_);
-      figure("features", left.count() + right.count());
+      countFeatures(left.count() + right.count());
       addPaired(left, right);
     }
     result_.matches = matcher.match(result_.features.descriptors);
@@ -45,9 +45,9 @@ class Comparison {
     return options_.filter == FeatureFilter::kDisparity && options_.disparity == FeatureDisparity::kMap;
   }
 
-  void figure(const char* name, int count) {
-    result_.figures.push_back({name, static_cast<double>(count), ""});
-    result_.figures.push_back({name, watch_.lapMs(), "ms"});
+  void countFeatures(int count) {
+    result_.figures.push_back({"features", static_cast<double>(count), ""});
+    result_.figures.push_back({"feature time", watch_.lapMs(), "ms"});
   }
 
   void findRegions() {

@@ -16,7 +16,7 @@ class SegmentRecognition final : public SparseStereoPlugin {
   }
 
   std::vector<PluginParameter> parameters() const override {
-    std::vector<PluginParameter> parameters = KnownObjects::parameters(Thoroughness::kFrontal);
+    std::vector<PluginParameter> parameters = KnownObjects::parameters();
     const std::vector<PluginParameter> own = {
         choiceParameter("filter", "Which features to compare: from near regions, on epipolar lines, or all",
                         {"disparity", "epipolar", "none"}),
@@ -26,7 +26,7 @@ class SegmentRecognition final : public SparseStereoPlugin {
         realParameter("far_m", "Depth from which on all is background", 3, 0.01, 1000),
         integerParameter("opening_px", "Side of the square that opens the near pixels", 7, 1, 101),
         integerParameter("min_area_px", "Of a region", 400, 1, 1000000),
-        realParameter("sensitivity", "Divides the contrast that features of the views need", 1, 0.1, 20),
+        realParameter("sensitivity", "Divides the contrast that features of the views need", 2, 0.1, 20),
         realParameter("pair_ratio", "Of the distances between the views' features, at most", 0.8, 0, 1),
         realParameter("max_epipolar_px", "Distance of a partner from the epipolar line", 1, 0, 50),
         realParameter("ratio", "Of the distances to the nearest and the next known feature, at most", 0.8, 0,
@@ -45,6 +45,7 @@ class SegmentRecognition final : public SparseStereoPlugin {
   std::vector<ParameterSet> parameterSets() const override {
     std::vector<std::pair<std::string, std::string>> values = KnownObjects::faithful("surf-64");
     values.insert(values.end(), {{"feature_disparity", "partner"},
+                                 {"sensitivity", "1"},
                                  {"region_map", "block-matching"},
                                  {"ratio", "0.7"},
                                  {"place_model", "homography"},

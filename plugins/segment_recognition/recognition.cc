@@ -1,7 +1,6 @@
 #include "plugins/segment_recognition/recognition.h"
 
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 
 namespace pomona {
 namespace {
@@ -17,6 +16,28 @@ std::vector<SparsePoint> pointsOf(int number, const ObjectPlace& place, const Co
   return points;
 }
 
+// The views, and what was recognised in them.
+struct Recognised {
+  cv::Mat left, right;
+  const StereoCalibration& rig;
+  const ComparedFeatures& compared;
+  const RecognitionOptions& options;
+};
+
+std::vector<SparsePoint> range(const Recognised& seen, const KnownObject& known, int number,
+                               const ObjectPlace& place, SparseObject& object) {
+  const FlatObject flat{[&](const ObjectPlace& at) { return pointsOf(number, at, seen.compared); },
+                        [&](const DisparityPlane& plane) {
+                          return locateOnPlane(known, number, seen.compared.features.keypoints,
+                                               seen.compared.matches, plane, seen.options.locate);
+                        }};
+  if (seen.options.ranging == ObjectRanging::kPlane)
+    return rangeByPlane(seen.left, seen.right, seen.rig, flat, place, object);
+  std::vector<SparsePoint> points = flat.points_at(place);
+  rangeByMean(points, place, object);
+  return points;
+}
+
 }  // namespace
 
 SparseResult recogniseObjects(const RectifiedPair& pair, const StereoCalibration& rig, const cv::Mat& mask,
@@ -24,7 +45,7 @@ SparseResult recogniseObjects(const RectifiedPair& pair, const StereoCalibration
                               const ObjectDatabase& database, const RecognitionOptions& options) {
   const ObjectMatcher matcher(database);
   const ComparedFeatures compared = compareFeatures(pair, rig, mask, dense, matcher, options);
-  const cv::Mat left = grayOf(pair.left), right = grayOf(pair.right);
+  const Recognised seen{grayOf(pair.left), grayOf(pair.right), rig, compared, options};
   SparseResult result;
   result.figures = compared.figures;
   for (int i = 0; i < static_cast<int>(database.objects.size()); ++i) {
@@ -35,15 +56,8 @@ SparseResult recogniseObjects(const RectifiedPair& pair, const StereoCalibration
     object.label = known.label;
     object.why_not = place.why_not;
     if (place.found()) {
-      object.outline_px = place.outline_px;
-      object.box_px = cv::boundingRect(place.outline_px);
-      const std::vector<SparsePoint> points = pointsOf(i, place, compared);
+      const std::vector<SparsePoint> points = range(seen, known, i, place, object);
       result.points.insert(result.points.end(), points.begin(), points.end());
-      const cv::Point2d middle((known.size_px.width - 1) / 2.0, (known.size_px.height - 1) / 2.0);
-      if (options.ranging == ObjectRanging::kMean)
-        rangeByMean(points, object);
-      else
-        rangeByPlane(left, right, rig, points, mapped(place.image_from_picture, middle), object);
     }
     result.objects.push_back(std::move(object));
   }

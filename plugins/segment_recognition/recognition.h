@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "plugins/common/matching.h"
-#include "plugins/common/object_match.h"
+#include "plugins/common/object_place.h"
 #include "plugins/common/object_range.h"
 #include "plugins/segment_recognition/regions.h"
 #include "pomona/plugin.h"
@@ -31,7 +31,7 @@ struct RecognitionOptions {
   FeatureDisparity disparity = FeatureDisparity::kMap;
   bool engine_map = true;  ///< regions by the engine's dense map, else by block matching
   RegionOptions regions;
-  double sensitivity = 1;   ///< see FeatureFinder
+  double sensitivity = 2;   ///< see FeatureFinder
   double pair_ratio = 0.8;  ///< of partners, see MatchOptions
   double max_epipolar_px = 1;
   LocateOptions locate;
