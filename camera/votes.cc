@@ -12,10 +12,14 @@ constexpr int kWindow = kWindow_px * kBinsPerPixel;
 
 }  // namespace
 
-Votes::Votes(double largest) : bins_(static_cast<std::size_t>(largest * kBinsPerPixel) + 2 + kWindow) {}
+Votes::Votes(double largest) : bins_(static_cast<std::size_t>(largest * kBinsPerPixel) + 2 + kWindow) {
+  clear();
+}
 
 void Votes::clear() {
   std::fill(bins_.begin(), bins_.end(), 0.0);
+  begin_ = bins_.size();
+  end_ = 0;
 }
 
 void Votes::add(double value, double weight) {
@@ -25,6 +29,8 @@ void Votes::add(double value, double weight) {
   const double rest = place - static_cast<double>(bin);
   bins_[bin] += weight * (1 - rest);
   bins_[bin + 1] += weight * rest;
+  begin_ = std::min(begin_, bin);
+  end_ = std::max(end_, bin + 2);
 }
 
 Votes::Peak Votes::peak(double other_than) const {
@@ -35,8 +41,9 @@ Votes::Peak Votes::peak(double other_than) const {
   };
   std::size_t best = 0;
   double best_sum = 0, sum = 0;
-  for (std::size_t i = 0; i < kWindow - 1; ++i) sum += bins_[i];
-  for (std::size_t begin = 0; begin + kWindow <= bins_.size(); ++begin) {
+  const std::size_t first = begin_ - std::min<std::size_t>(begin_, kWindow - 1);
+  for (std::size_t i = first; i < std::min(first + kWindow - 1, end_); ++i) sum += bins_[i];
+  for (std::size_t begin = first; begin < end_ && begin + kWindow <= bins_.size(); ++begin) {
     sum += bins_[begin + kWindow - 1];
     if (sum > best_sum && isOther(begin)) {
       best_sum = sum;

@@ -25,6 +25,7 @@ class Votes {
 
  private:
   std::vector<double> bins_;
+  std::size_t begin_ = 0, end_ = 0;  // of the bins with votes
 };
 
 double largestParallax(const RegionSamples& region);
