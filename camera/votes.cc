@@ -6,9 +6,8 @@
 namespace pomona {
 namespace {
 
-constexpr int kBinsPerPixel = 4;
-constexpr int kWindow_px = 1;
-constexpr int kWindow = kWindow_px * kBinsPerPixel;
+constexpr int kBinsPerPixel = 8;
+constexpr int kWindow = kBinsPerPixel / 2;
 
 }  // namespace
 
@@ -34,7 +33,6 @@ void Votes::add(double value, double weight) {
 }
 
 Votes::Peak Votes::peak(double other_than) const {
-  constexpr double kApart_px = 2;
   const auto isOther = [&](std::size_t begin) {
     const double middle_px = (static_cast<double>(begin) + 0.5 * (kWindow - 1)) / kBinsPerPixel;
     return std::abs(middle_px - other_than) >= kApart_px;
