@@ -413,6 +413,7 @@ class BadOptions(CommandTest):
         self.refuse("sse9", "--isa", "sse9")
         self.refuse("threads is -1", "--threads", "-1")
         self.refuse("threads is 5000", "--threads", "5000")
+        self.refuse("adaptive_range is on", "--adaptive-range", "--preset", "paper")
 
     def test_usage(self):
         self.refuse("--mode", "--mode", "thick")
