@@ -99,25 +99,26 @@ TEST(SearchBands, CoverTheFrameOnceInsideTheRange) {
 
 TEST(SearchBands, HoldWhatBothViewsSee) {
   Planner plan;
-  for (const std::string& name : sceneNames()) {
-    const RenderedPair pair = scene(name);
-    const auto bands = plan(pair, 0, kSearched);
-    ASSERT_FALSE(bands.empty()) << name;
-    int seen = 0, held = 0, searched = 0;
-    for (const SearchBand& band : bands) {
-      searched += band.height * band.disparities;
-      for (int y = band.y; y < band.y + band.height; ++y)
-        for (int x = 0; x < kWidth; ++x) {
-          if (pair.left.mask.at<std::uint8_t>(y, x) != 255) continue;
-          const float d = pair.left.disparity.at<float>(y, x);
-          ++seen;
-          held += d >= static_cast<float>(band.min_disparity) &&
-                  d <= static_cast<float>(band.min_disparity + band.disparities - 1);
-        }
+  for (const std::string& name : sceneNames())
+    for (int min_disparity : {0, -70}) {
+      const RenderedPair pair = scene(name);
+      const auto bands = plan(pair, min_disparity, kSearched);
+      ASSERT_FALSE(bands.empty()) << name;
+      int seen = 0, held = 0, searched = 0;
+      for (const SearchBand& band : bands) {
+        searched += band.height * band.disparities;
+        for (int y = band.y; y < band.y + band.height; ++y)
+          for (int x = 0; x < kWidth; ++x) {
+            if (pair.left.mask.at<std::uint8_t>(y, x) != 255) continue;
+            const float d = pair.left.disparity.at<float>(y, x);
+            ++seen;
+            held += d >= static_cast<float>(band.min_disparity) &&
+                    d <= static_cast<float>(band.min_disparity + band.disparities - 1);
+          }
+      }
+      EXPECT_GT(held, 0.999 * seen) << name;
+      EXPECT_LT(searched, 0.85 * kHeight * kSearched) << name;
     }
-    EXPECT_GT(held, 0.999 * seen) << name;
-    EXPECT_LT(searched, 0.85 * kHeight * kSearched) << name;
-  }
 }
 
 TEST(SearchBands, SearchTheWholeRangeWhereTheLookIsUnsure) {
@@ -220,7 +221,7 @@ TEST(SparseStage, BandsOfTheWholeRangeHardlyChangeTheMap) {
     return n;
   };
   EXPECT_EQ(different(once), 0);
-  EXPECT_LT(different(twice), kWidth * kHeight / 200);
+  EXPECT_LE(different(twice), 3);  // without margins: 18
 }
 
 TEST(SearchBands, AreRefusedWhereNothingIsMatchedAtFullSize) {
