@@ -85,7 +85,8 @@ void SearchBands::cutBest() {
 }
 
 std::span<const SearchBand> SearchBands::plan(const MatchInput& pair, const SparseStage::Settings& settings) {
-  constexpr int kWorthPercent = 5;
+  // The look has cost some already, and rows that are matched twice cost more than timeOf() counts.
+  constexpr int kWorthPercent = 15;
   bands_.clear();
   const int min_disparity = settings.match.min_disparity, disparities = settings.match.disparities;
   if (disparities <= kLanes) return {};
