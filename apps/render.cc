@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/scene_files.h"
 #include "apps/rig_options.h"
+#include "apps/scene_files.h"
 #include "apps/verbs.h"
 #include "datasets/chessboard.h"
 #include "datasets/image_file.h"
