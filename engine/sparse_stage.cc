@@ -32,7 +32,7 @@ void removeRejected(MatchMaps& maps, ImageView<const std::uint8_t> mask, int thr
 void SparseStage::run(const MatchInput& pair, const Settings& s, StageClock& clock) {
   const ValidationOptions& v = s.validation;
   matcher_.match(pair, s.match, s.mutual_information, sgmKernels(s.isa), maps_, s.threads);
-  removeRejected(maps_, s.mask, s.threads);
+  if (!s.mask.empty() || s.match.winner.uniqueness_percent > 0) removeRejected(maps_, s.mask, s.threads);
   clock.lap("matching");
 
   if (v.left_right_px >= 0)

@@ -23,7 +23,7 @@ KernelTables timedTables(Isa isa) {
       TIMED(sgm, support);
   TIMED(sgm, prior), TIMED(sgm, aggregateFirst), TIMED(sgm, aggregateLast);
   TIMED(sgm, refine[0]), TIMED(sgm, refine[1]), TIMED(sgm, refine[2]), TIMED(sgm, refine[3]);
-  TIMED(filters, contradictions), TIMED(filters, metColumns), TIMED(filters, trustCodes);
+  TIMED(filters, leftRight), TIMED(filters, trustCodes), TIMED(filters, trustPairs);
   TIMED(filters, breaks), TIMED(filters, links);
   TIMED(filters, median3x3), TIMED(filters, median5x5), TIMED(filters, jointBilateral);
   TIMED(filters, nearJumps), TIMED(filters, weightedMedian);

@@ -82,5 +82,29 @@ inline Floats floatsOf(Ints v) {
   return reinterpret_cast<Floats>(v);
 }
 
+/// 32-bit elements that lie apart from each other in memory; floatsOf() reads them as what they are.
+inline Ints gather(const void* base, Ints index) {
+#if defined(__AVX512F__)
+  return reinterpret_cast<Ints>(_mm512_i32gather_epi32(reinterpret_cast<__m512i>(index), base, 4));
+#elif defined(__AVX2__)
+  return reinterpret_cast<Ints>(
+      _mm256_i32gather_epi32(static_cast<const int*>(base), reinterpret_cast<__m256i>(index), 4));
+#else
+  Ints v;
+  for (int i = 0; i < kFloatLanes; ++i) v[i] = static_cast<const std::int32_t*>(base)[index[i]];
+  return v;
+#endif
+}
+/// out[i] = from[index[i]]; GCC 12 makes no gathers of such a loop.
+inline void gatherRow(const float* from, const std::int32_t* index, int count, float* __restrict out) {
+  int i = 0;
+  for (; i + kFloatLanes <= count; i += kFloatLanes) {
+    Ints at;
+    __builtin_memcpy(&at, index + i, sizeof at);
+    store(out + i, floatsOf(gather(from, at)));
+  }
+  for (; i < count; ++i) out[i] = from[index[i]];
+}
+
 }  // namespace
 }  // namespace pomona

@@ -14,9 +14,9 @@
 namespace pomona {
 namespace {
 
-constexpr FilterKernels kTable = {.contradictions = contradictionsOf,
-                                  .metColumns = metColumnsOf,
+constexpr FilterKernels kTable = {.leftRight = leftRightRow,
                                   .trustCodes = trustCodesOf,
+                                  .trustPairs = trustPairsOf,
                                   .breaks = breaksOf,
                                   .links = linksOf,
                                   .median3x3 = medianRow<3>,
