@@ -87,6 +87,20 @@ struct TrustPair {
   float confidence, sigma_px;
 };
 
+/// Pixels of a row, from `begin` to the next run of the row, whose neighbours differ by at most the step; or
+/// that are all unknown. A node of a forest, a tree per component.
+struct SpeckleRun {
+  std::int32_t begin;
+  /// Of a root, the pixels of the component, negated; -enough_px also for more, after which components may
+  /// stay apart, and for unknown pixels. Of others, a run nearer to the root.
+  std::int32_t link;
+};
+struct SpeckleRow {
+  const float* disparity;
+  const std::uint64_t* breaks;  ///< bit x % 64 of word x / 64: a run other than the row's first begins at x
+  int first;                    ///< index of the row's first run
+};
+
 struct FilterKernels {
   void (*leftRight)(const LeftRightRow&);
   /// codes[i] = (margin step * kTrustSteps + curvature step) * kTrustSteps + residual step; the residual's
@@ -97,11 +111,12 @@ struct FilterKernels {
   /// of_code[kTrustCodes + state] elsewhere.
   void (*trustPairs)(const TrustPair* of_code, const std::uint16_t* codes, const std::uint8_t* state,
                      std::uint8_t measured, int count, float* confidence, float* sigma_px);
-  /// out[i] = 1 if row[i] is not connected to row[i - 1], see filters/speckle.h; 0 if both are unknown.
-  void (*breaks)(const float* row, int count, float max_step_px, std::uint8_t* out);
-  /// out[i] = 1 if upper[i] and lower[i] are connected, and not by way of upper[i - 1] and lower[i - 1]
-  /// already.
-  void (*links)(const float* upper, const float* lower, int count, float max_step_px, std::uint8_t* out);
+  /// Cuts a row into `runs`, filters/speckle.h, and sets its `breaks`; returns how many there are.
+  int (*findRuns)(const float* row, int width, float max_step_px, int enough_px, std::uint64_t* breaks,
+                  SpeckleRun* runs);
+  /// Unites the runs of two neighbouring rows that are connected somewhere.
+  void (*uniteRuns)(const SpeckleRow& above, const SpeckleRow& below, int width, float max_step_px,
+                    int enough_px, SpeckleRun* runs);
   /// One row of the NaN-aware median, see filters/median.h. `rows` are the 3 (5) input rows around it,
   /// readable from 1 (2) pixels before their start up to the next multiple of 16 pixels, and 1 (2) more.
   void (*median3x3)(const float* const* rows, int width, float* out);

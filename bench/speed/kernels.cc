@@ -24,7 +24,7 @@ KernelTables timedTables(Isa isa) {
   TIMED(sgm, prior), TIMED(sgm, aggregateFirst), TIMED(sgm, aggregateLast);
   TIMED(sgm, refine[0]), TIMED(sgm, refine[1]), TIMED(sgm, refine[2]), TIMED(sgm, refine[3]);
   TIMED(filters, leftRight), TIMED(filters, trustCodes), TIMED(filters, trustPairs);
-  TIMED(filters, breaks), TIMED(filters, links);
+  TIMED(filters, findRuns), TIMED(filters, uniteRuns);
   TIMED(filters, median3x3), TIMED(filters, median5x5), TIMED(filters, jointBilateral);
   TIMED(filters, nearJumps), TIMED(filters, weightedMedian);
   TIMED(filters, refinePlanes[0]), TIMED(filters, refinePlanes[1]);
