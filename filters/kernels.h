@@ -35,6 +35,9 @@ struct GuidedRow {
   std::ptrdiff_t stride;  ///< of both, in elements
 };
 
+/// Of filters/median.h.
+inline constexpr int kMedianOverrun = 18;
+
 /// The window of filters/weighted_median.h, in reading order.
 struct MedianWindow {
   static constexpr int kRadius = 5;
@@ -118,7 +121,7 @@ struct FilterKernels {
   void (*uniteRuns)(const SpeckleRow& above, const SpeckleRow& below, int width, float max_step_px,
                     int enough_px, SpeckleRun* runs);
   /// One row of the NaN-aware median, see filters/median.h. `rows` are the 3 (5) input rows around it,
-  /// readable from 1 (2) pixels before their start up to the next multiple of 16 pixels, and 1 (2) more.
+  /// readable from 1 (2) pixels before their start to kMedianOverrun pixels after their end.
   void (*median3x3)(const float* const* rows, int width, float* out);
   void (*median5x5)(const float* const* rows, int width, float* out);
   /// kBilateralBlock pixels of the joint bilateral filter, NaN where unknown, see filters/joint_bilateral.h.

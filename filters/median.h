@@ -3,12 +3,11 @@
 
 #include "core/image.h"
 #include "filters/kernels.h"
-#include "filters/padded_plane.h"
 
 namespace pomona {
 
 struct MedianScratch {
-  PaddedPlane padded;
+  Image<float> rows;  // of each strip, those around the current one
 };
 
 /// out(p) = the median of the known (not NaN) disparities in the size x size window around p, clipped to the

@@ -31,7 +31,15 @@ inline Floats load(const float* p) {
   __builtin_memcpy(&v, p, sizeof v);
   return v;
 }
+inline Ints load(const std::int32_t* p) {
+  Ints v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
+}
 inline void store(float* p, Floats v) {
+  __builtin_memcpy(p, &v, sizeof v);
+}
+inline void store(std::int32_t* p, Ints v) {
   __builtin_memcpy(p, &v, sizeof v);
 }
 /// Stores the first `count` lanes only; all of them if there are fewer.
@@ -98,11 +106,7 @@ inline Ints gather(const void* base, Ints index) {
 /// out[i] = from[index[i]]; GCC 12 makes no gathers of such a loop.
 inline void gatherRow(const float* from, const std::int32_t* index, int count, float* __restrict out) {
   int i = 0;
-  for (; i + kFloatLanes <= count; i += kFloatLanes) {
-    Ints at;
-    __builtin_memcpy(&at, index + i, sizeof at);
-    store(out + i, floatsOf(gather(from, at)));
-  }
+  for (; i + kFloatLanes <= count; i += kFloatLanes) store(out + i, floatsOf(gather(from, load(index + i))));
   for (; i < count; ++i) out[i] = from[index[i]];
 }
 
