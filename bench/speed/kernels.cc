@@ -15,7 +15,7 @@ namespace {
 
 /// The tables of one instruction set, every kernel timed.
 KernelTables timedTables(Isa isa) {
-  KernelTables t{sgmKernels(isa), filterKernels(isa), pyramidKernels(isa)};
+  KernelTables t{sgmKernels(isa), filterKernels(isa), pyramidKernels(isa), cameraKernels(isa)};
 #define TIMED(table, kernel) t.table.kernel = timed<#kernel>(t.table.kernel)
   TIMED(sgm, gray8), TIMED(sgm, gray16), TIMED(sgm, score);
   TIMED(sgm, census8), TIMED(sgm, census16), TIMED(sgm, sobel), TIMED(sgm, colorSteps);
@@ -36,6 +36,8 @@ KernelTables timedTables(Isa isa) {
   TIMED(pyramid, difference1), TIMED(pyramid, largestDifference3);
   TIMED(pyramid, countSourcesAndHoles), TIMED(pyramid, countNearPlane);
   TIMED(pyramid, packColors), TIMED(pyramid, gatherCandidates), TIMED(pyramid, candidateMedian);
+  TIMED(camera, interpolate8), TIMED(camera, interpolate16);
+  TIMED(camera, reduceBlocks), TIMED(camera, contrast);
 #undef TIMED
   return t;
 }
