@@ -82,6 +82,19 @@ inline Ints isNan(Floats v) {
   return v != v;
 }
 
+inline bool anyNan(Floats v) {
+#if defined(__AVX512F__)
+  return _mm512_cmp_ps_mask(v, v, _CMP_UNORD_Q) != 0;
+#elif defined(__AVX2__)
+  return _mm256_movemask_ps(_mm256_cmp_ps(v, v, _CMP_UNORD_Q)) != 0;
+#else
+  const Ints nan = isNan(v);
+  std::int32_t any = 0;
+  for (int i = 0; i < kFloatLanes; ++i) any |= nan[i];
+  return any != 0;
+#endif
+}
+
 /// The bits of a vector, read as the other type.
 inline Ints bitsOf(Floats v) {
   return reinterpret_cast<Ints>(v);

@@ -61,7 +61,11 @@ void medianRow5x5(const float* const* rows, int width, float* out) {
 #pragma GCC unroll 32
     for (int i = 0; i < kSize * kSize; ++i) window[i] = load(rows[i / kSize] + x + i % kSize - kSize / 2);
     const Floats centre = window[kSize * kSize / 2];
-    balanceUnknown(window);
+    Floats sum = {};  // NaN if a pixel is unknown
+#pragma GCC unroll 5
+    for (int i = 0; i < kSize * kSize; i += kSize)
+      sum += window[i] + window[i + 1] + (window[i + 2] + window[i + 3]) + window[i + 4];
+    if (anyNan(sum)) balanceUnknown(window);  // rare: it is completed maps that are smoothed so far
     storeFirst(out + x, isNan(centre) ? centre : medianOf(window), width - x);
   }
 }
