@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "core/parallel.h"
 #include "pomona/pixel_state.h"
@@ -45,12 +44,9 @@ void SparseStage::run(const MatchInput& pair, const Settings& s, StageClock& clo
                    filterKernels(s.isa), s.threads);
   clock.lap("speckle");
 
-  if (v.median_size > 0) {
-    filtered_.resize(pair.left.width, pair.left.height);
-    medianFilter(maps_.disparity.view(), filtered_.view(), v.median_size, filterKernels(s.isa), median_,
+  if (v.median_size > 0)
+    medianFilter(maps_.disparity.view(), maps_.disparity.view(), v.median_size, filterKernels(s.isa), median_,
                  s.threads);
-    std::swap(maps_.disparity, filtered_);
-  }
   clock.lap("median");
 }
 

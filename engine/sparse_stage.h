@@ -33,7 +33,6 @@ class SparseStage {
  private:
   SgmMatcher matcher_;
   MatchMaps maps_;
-  Image<float> filtered_;
   LeftRightScratch left_right_;
   SpeckleScratch speckle_;
   MedianScratch median_;
