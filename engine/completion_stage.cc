@@ -67,6 +67,8 @@ void CompletionStage::fillHolesOf(const MatchInput& pair, const SparseStage::Set
   const PyramidKernels& kernels = pyramidKernels(settings.isa);
   if (options.segment_planes)
     fillFromPlanes({.guide = pair.guide,
+                    .left = pair.left,
+                    .right = pair.right,
                     .right_disparity = maps.right_disparity.view(),
                     .scale = options.segment_scale,
                     .min_disparity = limits.low,

@@ -8,6 +8,7 @@
 #include "pyramid/kernels.h"
 #include "pyramid/scale.h"
 #include "pyramid/segment_cells.h"
+#include "pyramid/segment_match.h"
 #include "pyramid/segmentation.h"
 #include "pyramid/view_border.h"
 
@@ -15,7 +16,8 @@ namespace pomona {
 
 /// Everything has the size of the left image; sides are at most 32767.
 struct PlaneFillInput {
-  GuideView guide;                         ///< the left image
+  GuideView guide;                            ///< the left image
+  ImageView<const std::uint8_t> left, right;  ///< both views in gray
   ImageView<const float> right_disparity;  ///< the right view's map, d = x_left - x_right; NaN where unknown
   int scale = 4;            ///< segments are found in the image reduced so many times; 1, 2 or 4
   float min_disparity = 0;  ///< a plane fills with disparities from here ...
@@ -35,6 +37,7 @@ struct PlaneFillScratch {
   std::array<Segments, 2> divisions;
   SegmentCells cells;
   ViewBorder border;
+  SegmentMatch match;
 };
 
 /// Fills holes (see holes.h) of `disparity` in place and gives them state kFilledPlane. Other pixels keep
