@@ -10,6 +10,8 @@
 namespace pomona {
 namespace {
 
+static_assert(SegmentMatch::kMostDisparities >= kMaxDisparities);
+
 struct Limits {
   float low, high;
   explicit Limits(const MatchOptions& match)

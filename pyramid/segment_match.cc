@@ -33,7 +33,8 @@ void SegmentMatch::prepare(ImageView<const std::uint8_t> left, ImageView<const s
                            int min_disparity, int disparities, const PyramidKernels& kernels, int threads) {
   kernels_ = &kernels;
   min_disparity_ = min_disparity;
-  disparities_ = disparities;
+  disparities_ = left.empty() ? 0 : disparities;
+  if (left.empty()) return;
   const int width = left.width, last = width - 1;
   const int before = std::max(0, -min_disparity), behind = std::max(0, min_disparity + disparities - 1);
   offset_ = before + last + min_disparity;
@@ -76,14 +77,16 @@ void SegmentMatch::forEachInnerRow(const Segment& segment, F visit) const {
   forEachInnerCell(segment, [&](Cell c) { pixels += segment.cells.width(c) * segment.cells.height(c); });
   if (pixels < kFewestPixels) return;
   const int step = (pixels + kMostPixels - 1) / kMostPixels;
+  int rows = 0;
   forEachInnerCell(segment, [&](Cell c) {
     const Pixel first = segment.cells.firstPixel(c);
     for (int y = first.y; y < first.y + segment.cells.height(c); ++y)
-      if (y % step == 0) visit(Pixel{first.x, y}, segment.cells.width(c));
+      if (rows++ % step == 0) visit(Pixel{first.x, y}, segment.cells.width(c));
   });
 }
 
 std::optional<SegmentMatch::Level> SegmentMatch::levelOf(const Segment& segment) const {
+  if (disparities_ == 0) return {};
   std::array<std::int32_t, kMostDisparities> products, squares;
   std::fill_n(products.begin(), disparities_, 0);
   std::fill_n(squares.begin(), disparities_, 0);

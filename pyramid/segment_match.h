@@ -37,8 +37,8 @@ class SegmentMatch {
     double deviation;  ///< of the scores of other disparities
   };
 
-  /// The views are gray and of equal size; disparities are searched from `min_disparity` up, at most
-  /// kMostDisparities. Memory is kept from frame to frame.
+  /// The views are gray and of equal size, or empty: no level stands out then. Disparities are searched from
+  /// `min_disparity` up, at most kMostDisparities. Memory is kept from frame to frame.
   void prepare(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right, int min_disparity,
                int disparities, const PyramidKernels& kernels, int threads);
 
