@@ -16,7 +16,7 @@ constexpr int kMinRowsPerStrip = 16;
 constexpr int kResidualLimit = 62;  // 2.5 gray values
 constexpr int kEdge_px = 4;         // so far from other segments
 constexpr int kFewestPixels = 200;
-constexpr int kMostPixels = 1 << 16;                  // more are sampled by rows: sums stay below 2^31
+constexpr int kMostPixels = 1 << 15;                  // more are sampled by rows: sums stay below 2^31
 constexpr int kNear_px = 2;                           // disparities that share one peak
 constexpr int kFewestOthers = 8;                      // disparities that tell how much scores spread
 constexpr double kLeastHeight = 4, kLeastLead = 1.5;  // in deviations
@@ -35,9 +35,9 @@ void SegmentMatch::prepare(ImageView<const std::uint8_t> left, ImageView<const s
   min_disparity_ = min_disparity;
   disparities_ = left.empty() ? 0 : disparities;
   if (left.empty()) return;
-  const int width = left.width, last = width - 1;
-  const int before = std::max(0, -min_disparity), behind = std::max(0, min_disparity + disparities - 1);
-  offset_ = before + last + min_disparity;
+  const int width = left.width, last = min_disparity + disparities - 1;
+  const int before = std::max(0, last), behind = std::max(0, -min_disparity);
+  offset_ = before - last;
   left_.resize(width, left.height);
   right_.resize(before + width + behind, left.height);
   parallelStrips(threads, left.height, kMinRowsPerStrip, [&](int begin, int end) {
@@ -46,7 +46,6 @@ void SegmentMatch::prepare(ImageView<const std::uint8_t> left, ImageView<const s
       std::int8_t* to = right_.row(y);
       std::fill_n(to, before, std::int8_t{0});
       residualsOf(right, y, kernels, to + before);
-      std::reverse(to + before, to + before + width);
       std::fill_n(to + before + width, behind, std::int8_t{0});
     }
   });
@@ -96,8 +95,11 @@ std::optional<SegmentMatch::Level> SegmentMatch::levelOf(const Segment& segment)
   });
   // Where most of the segment would lie outside the right view, or meet edges there, scores say little.
   const int fewest = *std::max_element(squares.begin(), squares.begin() + disparities_) / 8;
-  const auto isKnown = [&](int d) { return squares[d] > fewest; };
-  const auto score = [&](int d) { return products[d] / std::sqrt(static_cast<double>(squares[d])); };
+  const auto isKnown = [&](int d) { return squares[disparities_ - 1 - d] > fewest; };
+  const auto score = [&](int d) {
+    const int k = disparities_ - 1 - d;
+    return products[k] / std::sqrt(static_cast<double>(squares[k]));
+  };
   int best = -1;
   for (int d = 0; d < disparities_; ++d)
     if (isKnown(d) && (best < 0 || score(d) > score(best))) best = d;
@@ -135,7 +137,7 @@ double SegmentMatch::scoreOf(const Segment& segment, const PlaneFit& fit) const 
       const float d = fit.at(static_cast<float>(x - origin.x), static_cast<float>(p.y - origin.y));
       const int index =
           std::clamp(static_cast<int>(std::floor(d + 0.5f)) - min_disparity_, 0, disparities_ - 1);
-      const int right = rightOf(x, p.y)[index];
+      const int right = rightOf(x, p.y)[disparities_ - 1 - index];
       products += left * right;
       squares += right * right;
     }

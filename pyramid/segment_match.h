@@ -57,13 +57,14 @@ class SegmentMatch {
   void forEachInnerCell(const Segment& segment, F visit) const;
   template <typename F>
   void forEachInnerRow(const Segment& segment, F visit) const;
-  const std::int8_t* rightOf(int x, int y) const { return right_.row(y) + offset_ - x; }
+  // What left pixel (x, y) meets at the largest disparity, at the next smaller one ...
+  const std::int8_t* rightOf(int x, int y) const { return right_.row(y) + offset_ + x; }
 
   const PyramidKernels* kernels_ = nullptr;
   int min_disparity_ = 0, disparities_ = 0;
-  int offset_ = 0;            // of what the left column 0 and min_disparity_ meet, in a row of right_
+  int offset_ = 0;            // see rightOf()
   Image<std::int8_t> left_;   // differences from the local mean, in 1/25 gray values; 0 if they are too large
-  Image<std::int8_t> right_;  // the same, rows from right to left, zeros for columns outside
+  Image<std::int8_t> right_;  // the same, with zeros for the columns outside
 };
 
 }  // namespace pomona

@@ -43,7 +43,8 @@ int countNearPlane(const float* x, const float* y, const float* d, int n, float 
   return count;
 }
 
-void localResidual(const std::uint8_t* const rows[5], int n, int limit, std::int8_t* __restrict out) {
+void localResidual(const std::uint8_t* const rows[5], int n, int most, std::int8_t* __restrict out) {
+  const auto limit = static_cast<std::int16_t>(most);
   constexpr int kChunk = 256;
   std::uint16_t sums[kChunk + 4];  // of columns, from two before the chunk to two behind it
   const std::uint8_t *r0 = rows[0], *r1 = rows[1], *r2 = rows[2], *r3 = rows[3], *r4 = rows[4];
@@ -56,23 +57,34 @@ void localResidual(const std::uint8_t* const rows[5], int n, int limit, std::int
       sums[count + 1 + i] = sumOf(begin + count - 1 + i < n - 1 ? begin + count - 1 + i : n - 1);
     }
     for (int i = 0; i < count; ++i) {
-      const int sum = sums[i] + sums[i + 1] + sums[i + 2] + sums[i + 3] + sums[i + 4];
-      const int residual = 25 * r2[begin + i] - sum;
+      const auto sum =
+          static_cast<std::int16_t>(sums[i] + sums[i + 1] + sums[i + 2] + sums[i + 3] + sums[i + 4]);
+      const auto residual = static_cast<std::int16_t>(25 * r2[begin + i] - sum);
       const bool is_faint = (residual <= limit) & (residual >= -limit);
       out[begin + i] = static_cast<std::int8_t>(is_faint ? residual : 0);
     }
   }
 }
 
-void correlate(const std::int8_t* left, const std::int8_t* right, int n, int disparities,
+// Four at a time: their sums still fit 16 bits.
+void correlate(const std::int8_t* left, const std::int8_t* right, int n, int places,
                std::int32_t* __restrict products, std::int32_t* __restrict squares) {
-  for (int i = 0; i < n; ++i) {
-    const std::int16_t a = left[i];
-    if (a == 0) continue;
-    const std::int8_t* b = right - i;
-    for (int d = 0; d < disparities; ++d) {
-      products[d] += static_cast<std::int16_t>(a * b[d]);
-      squares[d] += static_cast<std::int16_t>(b[d] * b[d]);
+  constexpr int kGroup = 4;
+  for (int begin = 0; begin < n; begin += kGroup) {
+    std::int16_t a[kGroup], counts[kGroup];
+    const std::int8_t* b[kGroup];
+    for (int i = 0; i < kGroup; ++i) {
+      const bool is_there = begin + i < n;
+      a[i] = is_there ? left[begin + i] : std::int8_t{0};
+      counts[i] = a[i] != 0;
+      b[i] = right + (is_there ? begin + i : begin);
+    }
+    if (counts[0] + counts[1] + counts[2] + counts[3] == 0) continue;
+    for (int k = 0; k < places; ++k) {
+      const std::int16_t b0 = b[0][k], b1 = b[1][k], b2 = b[2][k], b3 = b[3][k];
+      products[k] += static_cast<std::int16_t>(a[0] * b0 + a[1] * b1 + a[2] * b2 + a[3] * b3);
+      squares[k] += static_cast<std::int16_t>(counts[0] * b0 * b0 + counts[1] * b1 * b1 +
+                                              counts[2] * b2 * b2 + counts[3] * b3 * b3);
     }
   }
 }
