@@ -133,6 +133,8 @@ void runFilling(KernelMaterial& m, const KernelTables& tables) {
   copyPixels<float>(m.sparse_disparity.view(), m.disparity);
   copyPixels<std::uint8_t>(m.sparse_state.view(), m.state);
   fillFromPlanes({.guide = m.guide(),
+                  .left = m.input.views().left,
+                  .right = m.input.views().right,
                   .right_disparity = m.right_disparity.view(),
                   .max_disparity = static_cast<float>(m.size.disparities - 1)},
                  m.disparity.view(), m.state.view(), m.plane_fill, tables.pyramid, 1);
