@@ -1,7 +1,5 @@
 #include "engine/pipeline.h"
 
-#include <utility>
-
 #include "core/parallel.h"
 #include "engine/trust.h"
 
@@ -14,7 +12,7 @@ void Pipeline::run(const MatchInput& pair, ImageView<const std::uint8_t> mask, S
   if (matchesTwice()) matchAgain(pair, s, clock);
 }
 
-SparseStage::Settings Pipeline::settings(ImageView<const std::uint8_t> mask) const {
+SparseStage::Settings Pipeline::settings(ImageView<const std::uint8_t> mask) {
   SparseStage::Settings s;
   s.match = {options_.min_disparity, options_.num_disparities, options_.cost,
              options_.aggregation,   options_.winner,          options_.memory};
@@ -26,6 +24,7 @@ SparseStage::Settings Pipeline::settings(ImageView<const std::uint8_t> mask) con
   s.mask = mask;
   s.isa = isa_;
   s.threads = threads_;
+  s.scratch = &scratch_;
   return s;
 }
 
@@ -38,40 +37,40 @@ void Pipeline::match(const MatchInput& pair, const SparseStage::Settings& settin
   sparse_.run(pair, with_table, clock);
 }
 
-void Pipeline::noteBarePixels() {
+void Pipeline::noteBarePixels(ImageView<std::uint8_t> bare) const {
   const MatchMaps& first = maps();
-  bare_.resize(first.margin.width(), first.margin.height());
   const int largest = largestSum(options_);
-  parallelStrips(threads_, bare_.height(), 32, [&](int begin, int end) {
+  parallelStrips(threads_, bare.height, 32, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
-      for (int x = 0; x < bare_.width(); ++x)
-        bare_.row(y)[x] = nothingStandsOut(first.margin.row(y)[x], first.curvature.row(y)[x], largest);
+      for (int x = 0; x < bare.width; ++x)
+        bare.row(y)[x] = nothingStandsOut(first.margin.row(y)[x], first.curvature.row(y)[x], largest);
   });
 }
 
 /// Where nothing stood out in the first match, what does in the second is what it was drawn to.
-void Pipeline::keepBarePixels() {
+void Pipeline::keepBarePixels(ImageView<const std::uint8_t> bare) {
   MatchMaps& second = maps();
-  parallelStrips(threads_, bare_.height(), 32, [&](int begin, int end) {
+  parallelStrips(threads_, bare.height, 32, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
-      for (int x = 0; x < bare_.width(); ++x)
-        if (bare_.row(y)[x]) second.margin.row(y)[x] = second.curvature.row(y)[x] = 0;
+      for (int x = 0; x < bare.width; ++x)
+        if (bare.row(y)[x]) second.margin.row(y)[x] = second.curvature.row(y)[x] = 0;
   });
 }
 
 /// The second pass: the completed map, which maps() holds, becomes the prior of another match.
 void Pipeline::matchAgain(const MatchInput& pair, const SparseStage::Settings& settings, StageClock& clock) {
-  noteBarePixels();
-  std::swap(first_map_, maps().disparity);
+  const Arena::Scope scope(scratch_);
+  const auto bare = scratch_.image<std::uint8_t>(pair.left.width, pair.left.height);
+  noteBarePixels(bare);
   MatchInput views = pair;
-  views.prior = first_map_.view();
+  views.prior = maps().disparity.view();
   SparseStage::Settings again = settings;
   again.match.cost = options_.second_pass.cost;
   again.match.aggregation = options_.second_pass.aggregation;
   again.match.prior_weight = options_.second_pass.weight;
   again.match.prior_reach_px = options_.second_pass.reach_px;
   sparse_.run(views, again, clock);
-  keepBarePixels();
+  keepBarePixels(bare);
   completion_.run(pair, settings, options_.completion, maps(), clock);
 }
 

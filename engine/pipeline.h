@@ -6,6 +6,7 @@
 #include "engine/completion_stage.h"
 #include "engine/hierarchical_mi.h"
 #include "engine/sparse_stage.h"
+#include "filters/kernels.h"
 #include "pomona/options.h"
 
 namespace pomona {
@@ -19,6 +20,7 @@ class Pipeline {
   void run(const MatchInput& pair, ImageView<const std::uint8_t> mask, StageClock& clock);
 
   MatchMaps& maps() { return sparse_.maps(); }
+  const MatchMaps& maps() const { return sparse_.maps(); }
   const FilterKernels& filterKernels() const { return pomona::filterKernels(isa_); }
   /// The largest sum of matching costs over the paths of the last match, whose margins maps() holds.
   int largestCostSum() const {
@@ -34,10 +36,10 @@ class Pipeline {
   bool isDense() const { return options_.mode == OutputMode::kDense; }
   bool isPaper() const { return isDense() && options_.completion.method == CompletionMethod::kPaper; }
   bool matchesTwice() const { return isDense() && !isPaper() && options_.second_pass.enabled; }
-  SparseStage::Settings settings(ImageView<const std::uint8_t> mask) const;
+  SparseStage::Settings settings(ImageView<const std::uint8_t> mask);
   void match(const MatchInput& pair, const SparseStage::Settings& settings, StageClock& clock);
-  void noteBarePixels();
-  void keepBarePixels();
+  void noteBarePixels(ImageView<std::uint8_t> bare) const;
+  void keepBarePixels(ImageView<const std::uint8_t> bare);
   void matchAgain(const MatchInput& pair, const SparseStage::Settings& settings, StageClock& clock);
 
   Options options_;
@@ -46,8 +48,7 @@ class Pipeline {
   HierarchicalMi mutual_information_;
   SparseStage sparse_;
   CompletionStage completion_;
-  Image<float> first_map_;
-  Image<std::uint8_t> bare_;  // whether nothing stood out in the first match
+  Arena scratch_;
 };
 
 }  // namespace pomona

@@ -47,12 +47,14 @@ int estimateNumDisparities(const cv::Mat& left, const cv::Mat& right, const Opti
 
   const int width = scaledLength(left.cols, kFactor), height = scaledLength(left.rows, kFactor);
   const double ratio = static_cast<double>(left.cols) / width;
-  ScaleScratch scratch;
+  Arena scratch;
   Image<std::uint8_t> small[2];
   const ImageView<const std::uint8_t> gray[2] = {input.views().left, input.views().right};
-  for (int i = 0; i < 2; ++i)
-    areaDownscale(GuideView{gray[i].data, gray[i].width, gray[i].height, 1, gray[i].stride}, small[i], width,
-                  height, scratch, pyramidKernels(isa), threads);
+  for (int i = 0; i < 2; ++i) {
+    small[i].resize(width, height);
+    areaDownscale(GuideView{gray[i].data, gray[i].width, gray[i].height, 1, gray[i].stride}, small[i].view(),
+                  scratch, pyramidKernels(isa), threads);
+  }
 
   const Options preset = Options::preset("fast");
   SparseStage::Settings settings;
@@ -64,6 +66,7 @@ int estimateNumDisparities(const cv::Mat& left, const cv::Mat& right, const Opti
   settings.mask = shrunkMask(maskView(mask), width, height, small_mask);
   settings.isa = isa;
   settings.threads = threads;
+  settings.scratch = &scratch;
   SparseStage stage;
   StageClock untimed;
   stage.run(

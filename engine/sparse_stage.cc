@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "core/parallel.h"
+#include "filters/left_right.h"
+#include "filters/median.h"
+#include "filters/speckle.h"
 #include "pomona/pixel_state.h"
 
 namespace pomona {
@@ -31,26 +33,23 @@ void removeRejected(MatchMaps& maps, ImageView<const std::uint8_t> mask, int thr
 
 void SparseStage::run(const MatchInput& pair, const Settings& s, StageClock& clock) {
   const ValidationOptions& v = s.validation;
-  matcher_.match(pair, s.match, s.mutual_information, sgmKernels(s.isa), maps_, s.threads);
+  matcher_.match(pair, s.match, s.mutual_information, sgmKernels(s.isa), maps_, *s.scratch, s.threads);
   removeRejected(maps_, s.mask, s.threads);
   clock.lap("matching");
 
   if (v.left_right_px >= 0)
     leftRightCheck(maps_.disparity.view(), maps_.state.view(), maps_.right_disparity.view(), v.left_right_px,
-                   s.match.min_disparity, s.match.disparities, left_right_, filterKernels(s.isa), s.threads);
+                   s.match.min_disparity, s.match.disparities, *s.scratch, filterKernels(s.isa), s.threads);
   clock.lap("left-right check");
 
   if (v.speckle_size_px > 0)
-    removeSpeckles(maps_.disparity.view(), maps_.state.view(), v.speckle_size_px, v.speckle_step_px, speckle_,
-                   filterKernels(s.isa), s.threads);
+    removeSpeckles(maps_.disparity.view(), maps_.state.view(), v.speckle_size_px, v.speckle_step_px,
+                   *s.scratch, filterKernels(s.isa), s.threads);
   clock.lap("speckle");
 
-  if (v.median_size > 0) {
-    filtered_.resize(pair.left.width, pair.left.height);
-    medianFilter(maps_.disparity.view(), filtered_.view(), v.median_size, filterKernels(s.isa), median_,
-                 s.threads);
-    std::swap(maps_.disparity, filtered_);
-  }
+  if (v.median_size > 0)
+    medianFilter(maps_.disparity.view(), maps_.disparity.view(), v.median_size, filterKernels(s.isa),
+                 *s.scratch, s.threads);
   clock.lap("median");
 }
 

@@ -4,12 +4,9 @@
 #include <cstdint>
 #include <span>
 
+#include "core/arena.h"
 #include "core/image.h"
 #include "engine/stage_clock.h"
-#include "filters/kernels.h"
-#include "filters/left_right.h"
-#include "filters/median.h"
-#include "filters/speckle.h"
 #include "sgm/matcher.h"
 
 namespace pomona {
@@ -23,20 +20,18 @@ class SparseStage {
     ImageView<const std::uint8_t> mask;                ///< empty, or 0 where a pixel is excluded
     Isa isa;
     int threads;
+    Arena* scratch;  ///< for whatever a stage needs only while it runs
   };
 
   /// Afterwards maps() holds the validated map: NaN with a reason wherever the state is not measured.
   void run(const MatchInput& pair, const Settings& settings, StageClock& clock);
 
   MatchMaps& maps() { return maps_; }
+  const MatchMaps& maps() const { return maps_; }
 
  private:
   SgmMatcher matcher_;
   MatchMaps maps_;
-  Image<float> filtered_;
-  LeftRightScratch left_right_;
-  SpeckleScratch speckle_;
-  MedianScratch median_;
 };
 
 /// The options for the same pair `ratio` times smaller (`width` columns wide): the range shrinks with it.

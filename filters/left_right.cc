@@ -57,15 +57,15 @@ void checkRow(float* d, std::uint8_t* state, const float* right, int width, cons
 
 void leftRightCheck(ImageView<float> disparity, ImageView<std::uint8_t> state,
                     ImageView<const float> right_disparity, float threshold_px, int min_disparity,
-                    int num_disparities, LeftRightScratch& scratch, const FilterKernels& kernels,
-                    int threads) {
+                    int num_disparities, Arena& scratch, const FilterKernels& kernels, int threads) {
   const int width = disparity.width;
   const Search search{threshold_px, std::max(threshold_px, 1.0f), min_disparity,
                       min_disparity + num_disparities - 1};
-  scratch.met.resize(width + 1, disparity.height);
+  const Arena::Scope scope(scratch);
+  const auto met_columns = scratch.image<std::uint8_t>(width + 1, disparity.height);
   parallelStrips(threads, disparity.height, 8, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
-      std::uint8_t* met = scratch.met.row(y);
+      std::uint8_t* met = met_columns.row(y);
       markMetColumns(right_disparity.row(y), width, search, kernels, met);
       checkRow(disparity.row(y), state.row(y), right_disparity.row(y), width, search, met, kernels);
     }

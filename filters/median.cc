@@ -6,18 +6,19 @@
 #include <string>
 
 #include "core/parallel.h"
+#include "filters/padded_plane.h"
 
 namespace pomona {
 
 void medianFilter(ImageView<const float> in, ImageView<float> out, int size, const FilterKernels& kernels,
-                  MedianScratch& scratch, int threads) {
+                  Arena& scratch, int threads) {
   if (size != 3 && size != 5)
     throw std::invalid_argument("median size is " + std::to_string(size) + "; allowed: 3, 5");
   if (in.empty()) return;
 
   const int radius = size / 2;
-  PaddedPlane& padded = scratch.padded;
-  padded.resize(in.width, in.height, radius, std::numeric_limits<float>::quiet_NaN());
+  const Arena::Scope scope(scratch);
+  const PaddedPlane padded(scratch, in.width, in.height, radius, std::numeric_limits<float>::quiet_NaN());
   parallelStrips(threads, in.height, 16, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) std::copy_n(in.row(y), in.width, padded.row(y));
   });

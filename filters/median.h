@@ -1,22 +1,18 @@
 // Median filter for disparity maps with unknown pixels.
 #pragma once
 
+#include "core/arena.h"
 #include "core/image.h"
 #include "filters/kernels.h"
-#include "filters/padded_plane.h"
 
 namespace pomona {
-
-struct MedianScratch {
-  PaddedPlane padded;
-};
 
 /// out(p) = the median of the known (not NaN) disparities in the size x size window around p, clipped to the
 /// image; of an even number of values, the lower of the two middle ones. Unknown pixels stay unknown.
 ///
-/// `size`: 3 or 5 pixels; throws std::invalid_argument for another. `in` and `out` have the same size and do
-/// not overlap. Disparities are finite or NaN.
+/// `size`: 3 or 5 pixels; throws std::invalid_argument for another. `in` and `out` have the same size; `out`
+/// may be `in`. Disparities are finite or NaN.
 void medianFilter(ImageView<const float> in, ImageView<float> out, int size, const FilterKernels& kernels,
-                  MedianScratch& scratch, int threads);
+                  Arena& scratch, int threads);
 
 }  // namespace pomona

@@ -11,8 +11,16 @@
 namespace pomona {
 namespace {
 
-using Run = SpeckleScratch::Run;
-using RowRuns = SpeckleScratch::RowRuns;
+/// Known pixels [begin, end) of one row whose neighbours differ by at most the step; a node of a union-find
+/// forest whose roots have the lowest index of their component.
+struct Run {
+  int begin, end;
+  int parent;
+  int size;  // pixels of the component; meaningful in roots
+};
+struct RowRuns {
+  int first, last;  // runs[first] up to, not including, runs[last]
+};
 
 // Strips are the same for every thread count: each has its own part of the array of runs.
 constexpr int kStripRows = 32;
@@ -87,13 +95,13 @@ void linkRows(const float* upper, RowRuns above, const float* lower, RowRuns bel
 }  // namespace
 
 void removeSpeckles(ImageView<float> disparity, ImageView<std::uint8_t> state, int min_size_px,
-                    float max_step_px, SpeckleScratch& scratch, const FilterKernels& kernels, int threads) {
+                    float max_step_px, Arena& scratch, const FilterKernels& kernels, int threads) {
   const int width = disparity.width, height = disparity.height;
   if (disparity.empty() || min_size_px <= 1) return;
-  scratch.runs.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  scratch.rows.resize(static_cast<std::size_t>(height));
-  Run* runs = scratch.runs.data();
-  RowRuns* rows = scratch.rows.data();
+  const Arena::Scope scope(scratch);
+  RowRuns* const rows = scratch.take<RowRuns>(static_cast<std::size_t>(height));
+  // Room for a run per pixel.
+  Run* const runs = scratch.take<Run>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   const auto link = [&](int y) {
     linkRows(disparity.row(y - 1), rows[y - 1], disparity.row(y), rows[y], width, max_step_px, kernels, runs);
   };

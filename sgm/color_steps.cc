@@ -6,18 +6,18 @@
 
 namespace pomona {
 
-void ColorSteps::compute(GuideView image, const SgmKernels& kernels, int threads) {
+void ColorSteps::compute(GuideView image, const SgmKernels& kernels, Arena& arena, int threads) {
   const int width = image.width, channels = image.channels;
-  Image<std::uint8_t>* const maps[] = {&left_, &above_left_, &above_, &above_right_};
-  for (Image<std::uint8_t>* map : maps) map->resize(width + 2, image.height);
+  ImageView<std::uint8_t>* const maps[] = {&left_, &above_left_, &above_, &above_right_};
+  for (ImageView<std::uint8_t>* map : maps) *map = arena.image<std::uint8_t>(width + 2, image.height);
   parallelStrips(threads, image.height, 16, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
-      for (Image<std::uint8_t>* map : maps)  // what no step is written to
+      for (const ImageView<std::uint8_t>* map : maps)  // what no step is written to
         for (int x : {0, 1, width, width + 1}) map->row(y)[x] = 0;
       const std::uint8_t* here = image.row(y);
       kernels.colorSteps(here + channels, here, channels, width - 1, left_.row(y) + 2);
       if (y == 0) {
-        for (Image<std::uint8_t>* map : {&above_left_, &above_, &above_right_})
+        for (const ImageView<std::uint8_t>* map : {&above_left_, &above_, &above_right_})
           std::fill_n(map->row(y), width + 2, std::uint8_t{0});
         continue;
       }

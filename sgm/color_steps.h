@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "core/arena.h"
 #include "core/image.h"
 #include "sgm/kernels.h"
 
@@ -12,7 +13,8 @@ namespace pomona {
 /// 0 where that lies outside the image. The other four neighbours see the same steps from their side.
 class ColorSteps {
  public:
-  void compute(GuideView image, const SgmKernels& kernels, int threads);
+  /// They lie in the current scope of `arena`.
+  void compute(GuideView image, const SgmKernels& kernels, Arena& arena, int threads);
 
   /// Rows are readable from -1 to width.
   const std::uint8_t* left(int y) const { return left_.row(y) + 1; }
@@ -21,7 +23,7 @@ class ColorSteps {
   const std::uint8_t* aboveRight(int y) const { return above_right_.row(y) + 1; }
 
  private:
-  Image<std::uint8_t> left_, above_left_, above_, above_right_;
+  ImageView<std::uint8_t> left_, above_left_, above_, above_right_;
 };
 
 }  // namespace pomona

@@ -4,13 +4,11 @@
 #include <cstdint>
 #include <span>
 
+#include "core/arena.h"
 #include "core/image.h"
 #include "pomona/options.h"
 #include "sgm/aggregation.h"
-#include "sgm/census.h"
-#include "sgm/color_steps.h"
 #include "sgm/cost.h"
-#include "sgm/sobel.h"
 
 namespace pomona {
 
@@ -51,29 +49,16 @@ struct MatchMaps {
 class SgmMatcher {
  public:
   /// `table`: for kMutualInformation, the cost of every pair of 8-bit values (see mutual_information.h).
+  /// The prior may be out.disparity.
   void match(const MatchInput& pair, const MatchOptions& options, std::span<const std::uint8_t> table,
-             const SgmKernels& kernels, MatchMaps& out, int threads);
+             const SgmKernels& kernels, MatchMaps& out, Arena& scratch, int threads);
 
   /// The same up to the winners of each row, for whoever wants to look at the sums behind a match.
   void findWinners(const MatchInput& pair, const MatchOptions& options, std::span<const std::uint8_t> table,
-                   const SgmKernels& kernels, WinnerSink sink, int threads);
+                   const SgmKernels& kernels, WinnerSink sink, Arena& scratch, int threads);
 
  private:
-  struct View {
-    CensusPlanes census;
-    Image<std::uint8_t> sobel;
-  };
-  MatchingCostRows::Features extract(ImageView<const std::uint8_t> gray,
-                                     ImageView<const std::uint16_t> gray16, MatchingCost cost, View& view,
-                                     const SgmKernels& kernels, int threads);
-
-  CensusTransform<std::uint8_t> census_;
-  CensusTransform<std::uint16_t> census16_;
-  SobelFilter sobel_;
-  View left_, right_;
-  ColorSteps steps_;
   MatchingCostRows cost_;
-  Aggregator aggregator_;
 };
 
 }  // namespace pomona

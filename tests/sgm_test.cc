@@ -12,8 +12,10 @@
 
 #include "core/cpu.h"
 #include "pomona/pixel_state.h"
+#include "sgm/census.h"
 #include "sgm/matcher.h"
 #include "sgm/mutual_information.h"
+#include "sgm/sobel.h"
 
 namespace pomona {
 namespace {
@@ -105,14 +107,14 @@ struct WinnerMaps {
 
 /// Both memory modes, which must agree with the textbook and so with each other.
 template <typename Check>
-void aggregate(const MatchingCostRows& cost, const ColorSteps& steps, const AggregationOptions& options,
+void aggregateBoth(const MatchingCostRows& cost, const ColorSteps& steps, const AggregationOptions& options,
                const SgmKernels& kernels, int threads, Check&& check) {
   for (MemoryMode memory : {MemoryMode::kSpeed, MemoryMode::kLow}) {
-    Aggregator aggregator;
+    Arena scratch;
     WinnerMaps winners(cost.width(), cost.height());
-    aggregator.run(
+    aggregate(
         cost, steps, options, memory, kernels, [&](int y, const WinnerRow& row) { winners.take(y, row); },
-        threads);
+        scratch, threads);
     check(winners, memory == MemoryMode::kLow ? ", low memory" : "");
   }
 }
@@ -162,16 +164,16 @@ void compareWithTextbook(const Setup& s) {
   for (Isa isa : usableIsas())
     for (int threads : {1, 2, 7}) {
       const SgmKernels& kernels = sgmKernels(isa);
-      CensusTransform<T> transform;
-      CensusPlanes left, right;
-      transform.compute(pair.left.view(), s.cost, left, kernels, threads);
-      transform.compute(pair.right.view(), s.cost, right, kernels, threads);
+      Arena arena;
+      const CensusPlanes left = computeCensus<T>(pair.left.view(), s.cost, kernels, arena, threads);
+      const CensusPlanes right = computeCensus<T>(pair.right.view(), s.cost, kernels, arena, threads);
       ColorSteps steps;
-      steps.compute(colorView(guide), kernels, threads);
+      steps.compute(colorView(guide), kernels, arena, threads);
       MatchingCostRows cost;
-      cost.prepareCensus({&left, {}, {}}, {&right, {}, {}}, maximumCost(s.cost),
-                         makeRange(s.min_disparity, s.disparities, kernels), kernels, threads);
-      aggregate(cost, steps, s.aggregation, kernels, threads, [&](const WinnerMaps& got, const char* memory) {
+      cost.startCensus({&left, {}, {}}, maximumCost(s.cost),
+                       makeRange(s.min_disparity, s.disparities, kernels), kernels, arena);
+      cost.setRight({&right, {}, {}}, threads);
+      aggregateBoth(cost, steps, s.aggregation, kernels, threads, [&](const WinnerMaps& got, const char* memory) {
         expectEqual(got, want, describe(s, isa, threads) + memory);
       });
       if (testing::Test::HasFatalFailure()) return;
@@ -257,22 +259,22 @@ TEST(Sgm, BlendedCostWithSupportEqualsTextbook) {
         for (Isa isa : usableIsas())
           for (int threads : {1, 2}) {
             const SgmKernels& kernels = sgmKernels(isa);
-            CensusTransform<std::uint8_t> transform;
+            Arena arena;
             CensusPlanes codes[2];
-            SobelFilter filter;
-            Image<std::uint8_t> sobel[2];
+            ImageView<std::uint8_t> sobel[2];
             const ImageView<const std::uint8_t> gray[2] = {pair.left.view(), pair.right.view()};
             for (int i = 0; i < 2; ++i) {
-              transform.compute(gray[i], MatchingCost::kBlended, codes[i], kernels, threads);
-              filter.compute(gray[i], sobel[i], kernels, threads);
+              codes[i] = computeCensus(gray[i], MatchingCost::kBlended, kernels, arena, threads);
+              sobel[i] = computeSobel(gray[i], kernels, arena, threads);
             }
             ColorSteps steps;
-            steps.compute(colorView(guide), kernels, threads);
+            steps.compute(colorView(guide), kernels, arena, threads);
             MatchingCostRows cost;
-            cost.prepareBlended({&codes[0], sobel[0].view(), gray[0]}, {&codes[1], sobel[1].view(), gray[1]},
-                                45, makeRange(from, disparities, kernels), kernels, threads);
-            cost.prepareSupport(steps, step, threads);
-            aggregate(cost, steps, kSoft, kernels, threads, [&](const WinnerMaps& got, const char* memory) {
+            cost.startBlended({&codes[0], sobel[0], gray[0]}, 45, makeRange(from, disparities, kernels),
+                              kernels, arena);
+            cost.setRight({&codes[1], sobel[1], gray[1]}, threads);
+            cost.prepareSupport(steps, step, arena, threads);
+            aggregateBoth(cost, steps, kSoft, kernels, threads, [&](const WinnerMaps& got, const char* memory) {
               expectEqual(got, want,
                           "blended, " + std::string(name(isa)) + " support " + std::to_string(step) +
                               " content " + std::to_string(static_cast<int>(content)) + " width " +
@@ -300,13 +302,14 @@ TEST(Sgm, TableCostEqualsTextbook) {
        }});
   for (Isa isa : usableIsas()) {
     const SgmKernels& kernels = sgmKernels(isa);
+    Arena arena;
     ColorSteps steps;
-    steps.compute(gray, kernels, 1);
+    steps.compute(gray, kernels, arena, 1);
     MatchingCostRows cost;
-    cost.prepareTable({nullptr, {}, pair.left.view()}, {nullptr, {}, pair.right.view()},
-                      std::span<const std::uint8_t, 65536>(table), 127, makeRange(-3, 37, kernels), kernels,
-                      1);
-    aggregate(cost, steps, o, kernels, 2, [&](const WinnerMaps& got, const char* memory) {
+    cost.startTable({nullptr, {}, pair.left.view()}, std::span<const std::uint8_t, 65536>(table), 127,
+                    makeRange(-3, 37, kernels), kernels, arena);
+    cost.setRight({nullptr, {}, pair.right.view()}, 1);
+    aggregateBoth(cost, steps, o, kernels, 2, [&](const WinnerMaps& got, const char* memory) {
       expectEqual(got, want, "table cost, isa " + std::string(name(isa)) + memory);
     });
   }
@@ -340,17 +343,18 @@ TEST(Sgm, PriorAddsItsRampToTheCost) {
        }});
   for (Isa isa : usableIsas()) {
     const SgmKernels& kernels = sgmKernels(isa);
-    CensusTransform<std::uint8_t> transform;
-    CensusPlanes left, right;
-    transform.compute(pair.left.view(), MatchingCost::kCensus5x5, left, kernels, 2);
-    transform.compute(pair.right.view(), MatchingCost::kCensus5x5, right, kernels, 2);
+    Arena arena;
+    const auto codesOf = [&](const Image<std::uint8_t>& gray) {
+      return computeCensus<std::uint8_t>(gray.view(), MatchingCost::kCensus5x5, kernels, arena, 2);
+    };
+    const CensusPlanes left = codesOf(pair.left), right = codesOf(pair.right);
     ColorSteps steps;
-    steps.compute(colorView(guide), kernels, 2);
+    steps.compute(colorView(guide), kernels, arena, 2);
     MatchingCostRows cost;
-    cost.prepareCensus({&left, {}, {}}, {&right, {}, {}}, 24, makeRange(from, disparities, kernels), kernels,
-                       2);
-    cost.preparePrior(map.view(), weight, reach, 2);
-    aggregate(cost, steps, kSoft, kernels, 2, [&](const WinnerMaps& got, const char* memory) {
+    cost.startCensus({&left, {}, {}}, 24, makeRange(from, disparities, kernels), kernels, arena);
+    cost.setRight({&right, {}, {}}, 2);
+    cost.preparePrior(map.view(), weight, reach, arena, 2);
+    aggregateBoth(cost, steps, kSoft, kernels, 2, [&](const WinnerMaps& got, const char* memory) {
       expectEqual(got, want, "prior, isa " + std::string(name(isa)) + memory);
     });
   }
@@ -363,12 +367,13 @@ TEST(Sgm, MatcherRefinesAndMarksAmbiguousPixels) {
   const reference::Match want = reference::matchCensus<std::uint8_t>(
       pair.left.view(), pair.right.view(), guide, o.cost.cost, o.aggregation, 0, 24);
   SgmMatcher matcher;
+  Arena scratch;
   for (SubpixelMethod method :
        {SubpixelMethod::kNone, SubpixelMethod::kParabola, SubpixelMethod::kEquiangular}) {
     o.winner.subpixel = method;
     MatchMaps maps;
     matcher.match({pair.left.view(), pair.right.view(), {}, {}, guide}, o, {},
-                  sgmKernels(usableIsas().back()), maps, 2);
+                  sgmKernels(usableIsas().back()), maps, scratch, 2);
     int ambiguous = 0;
     for (int y = 0; y < 16; ++y)
       for (int x = 0; x < 60; ++x) {

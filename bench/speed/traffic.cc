@@ -40,7 +40,7 @@ struct MatchBytes {
 Traffic matchTraffic(const MatchBytes& m, MemoryMode memory, int height, double pixels) {
   constexpr double kSides = 2, kDirections = 4;
   const double sums = 2 * m.sum * m.lanes;  // written and read
-  const bool low = Aggregator::chooseMemory(memory, m.sum * m.lanes * pixels) == MemoryMode::kLow;
+  const bool low = chooseMemory(memory, m.sum * m.lanes * pixels) == MemoryMode::kLow;
   const double passes = low ? 3 : 2;
   const double rows_per_checkpoint = std::sqrt(0.5 * height * m.paths / m.sum);
   const double checkpoints = 2 * m.paths * m.lanes / rows_per_checkpoint;
