@@ -37,31 +37,30 @@ void Pipeline::match(const MatchInput& pair, const SparseStage::Settings& settin
   sparse_.run(pair, with_table, clock);
 }
 
-void Pipeline::noteBarePixels(ImageView<std::uint8_t> bare) const {
+void Pipeline::noteBarePixels() {
   const MatchMaps& first = maps();
+  bare_.resize(first.disparity.width(), first.disparity.height());
   const int largest = largestSum(options_);
-  parallelStrips(threads_, bare.height, 32, [&](int begin, int end) {
+  parallelStrips(threads_, bare_.height(), 32, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
-      for (int x = 0; x < bare.width; ++x)
-        bare.row(y)[x] = nothingStandsOut(first.margin.row(y)[x], first.curvature.row(y)[x], largest);
+      for (int x = 0; x < bare_.width(); ++x)
+        bare_.row(y)[x] = nothingStandsOut(first.margin(y)[x], first.curvature(y)[x], largest);
   });
 }
 
 /// Where nothing stood out in the first match, what does in the second is what it was drawn to.
-void Pipeline::keepBarePixels(ImageView<const std::uint8_t> bare) {
+void Pipeline::keepBarePixels() {
   MatchMaps& second = maps();
-  parallelStrips(threads_, bare.height, 32, [&](int begin, int end) {
+  parallelStrips(threads_, bare_.height(), 32, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
-      for (int x = 0; x < bare.width; ++x)
-        if (bare.row(y)[x]) second.margin.row(y)[x] = second.curvature.row(y)[x] = 0;
+      for (int x = 0; x < bare_.width(); ++x)
+        if (bare_.row(y)[x]) second.margin(y)[x] = second.curvature(y)[x] = 0;
   });
 }
 
 /// The second pass: the completed map, which maps() holds, becomes the prior of another match.
 void Pipeline::matchAgain(const MatchInput& pair, const SparseStage::Settings& settings, StageClock& clock) {
-  const Arena::Scope scope(scratch_);
-  const auto bare = scratch_.image<std::uint8_t>(pair.left.width, pair.left.height);
-  noteBarePixels(bare);
+  noteBarePixels();
   MatchInput views = pair;
   views.prior = maps().disparity.view();
   SparseStage::Settings again = settings;
@@ -70,7 +69,7 @@ void Pipeline::matchAgain(const MatchInput& pair, const SparseStage::Settings& s
   again.match.prior_weight = options_.second_pass.weight;
   again.match.prior_reach_px = options_.second_pass.reach_px;
   sparse_.run(views, again, clock);
-  keepBarePixels(bare);
+  keepBarePixels();
   completion_.run(pair, settings, options_.completion, maps(), clock);
 }
 

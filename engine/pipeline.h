@@ -20,7 +20,7 @@ class Pipeline {
   void run(const MatchInput& pair, ImageView<const std::uint8_t> mask, StageClock& clock);
 
   MatchMaps& maps() { return sparse_.maps(); }
-  const MatchMaps& maps() const { return sparse_.maps(); }
+  Arena& scratch() { return scratch_; }
   const FilterKernels& filterKernels() const { return pomona::filterKernels(isa_); }
   /// The largest sum of matching costs over the paths of the last match, whose margins maps() holds.
   int largestCostSum() const {
@@ -38,8 +38,8 @@ class Pipeline {
   bool matchesTwice() const { return isDense() && !isPaper() && options_.second_pass.enabled; }
   SparseStage::Settings settings(ImageView<const std::uint8_t> mask);
   void match(const MatchInput& pair, const SparseStage::Settings& settings, StageClock& clock);
-  void noteBarePixels(ImageView<std::uint8_t> bare) const;
-  void keepBarePixels(ImageView<const std::uint8_t> bare);
+  void noteBarePixels();
+  void keepBarePixels();
   void matchAgain(const MatchInput& pair, const SparseStage::Settings& settings, StageClock& clock);
 
   Options options_;
@@ -48,6 +48,7 @@ class Pipeline {
   HierarchicalMi mutual_information_;
   SparseStage sparse_;
   CompletionStage completion_;
+  Image<std::uint8_t> bare_;  // whether nothing stood out in the first match
   Arena scratch_;
 };
 

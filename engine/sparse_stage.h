@@ -27,7 +27,6 @@ class SparseStage {
   void run(const MatchInput& pair, const Settings& settings, StageClock& clock);
 
   MatchMaps& maps() { return maps_; }
-  const MatchMaps& maps() const { return maps_; }
 
  private:
   SgmMatcher matcher_;

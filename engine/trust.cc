@@ -47,8 +47,8 @@ void trustCodes(const MatchMaps& maps, int largest_cost_sum, int y, int x_begin,
                 const FilterKernels& kernels, std::uint16_t* codes) {
   kernels.trustCodes(
       {{maps.disparity.row(y) + x_begin, maps.right_disparity.row(y), x_begin, count, maps.disparity.width()},
-       maps.margin.row(y) + x_begin,
-       maps.curvature.row(y) + x_begin,
+       maps.margin(y) + x_begin,
+       maps.curvature(y) + x_begin,
        12.0f / static_cast<float>(largest_cost_sum)},
       codes);
 }
@@ -63,37 +63,42 @@ Trust::Trust() {
   for (int state = 0; state < 256; ++state) in_state_[state] = trustInFilled(static_cast<PixelState>(state));
 }
 
-void Trust::estimate(const MatchMaps& maps, int largest_cost_sum, const FilterKernels& kernels, int threads) {
+Trust::Maps Trust::estimate(MatchMaps& maps, int largest_cost_sum, const FilterKernels& kernels,
+                            Arena& scratch, int threads) const {
   const int width = maps.disparity.width(), height = maps.disparity.height();
-  confidence.resize(width, height);
-  sigma_px.resize(width, height);
+  static_assert(sizeof(float) == 2 * sizeof(std::uint16_t));
+  const Maps trust{
+      {reinterpret_cast<float*>(maps.scores.row(0)), width, height, maps.scores.view().stride / 2},
+      maps.right_disparity.view()};
+  const Arena::Scope scope(scratch);
+  const auto codes = scratch.image<std::uint16_t>(width, height);
   parallelStrips(threads, height, 32, [&](int y_begin, int y_end) {
-    std::uint16_t codes[kMatchChunk];
-    for (int y = y_begin; y < y_end; ++y)
-      for (int begin = 0; begin < width; begin += kMatchChunk) {
-        const int count = std::min(kMatchChunk, width - begin);
-        trustCodes(maps, largest_cost_sum, y, begin, count, kernels, codes);
-        const std::uint8_t* state = maps.state.row(y) + begin;
-        for (int i = 0; i < count; ++i) {
-          const bool measured = isMeasured(static_cast<PixelState>(state[i]));
-          const Pair& pair = *(measured ? &measured_[codes[i]] : &in_state_[state[i]]);  // no branch
-          confidence.row(y)[begin + i] = pair.confidence;
-          sigma_px.row(y)[begin + i] = pair.sigma_px;
-        }
+    for (int y = y_begin; y < y_end; ++y) {
+      for (int x = 0; x < width; x += kMatchChunk)
+        trustCodes(maps, largest_cost_sum, y, x, std::min(kMatchChunk, width - x), kernels, codes.row(y) + x);
+      const std::uint8_t* state = maps.state.row(y);
+      for (int x = 0; x < width; ++x) {
+        const bool measured = isMeasured(static_cast<PixelState>(state[x]));
+        const Pair& pair = *(measured ? &measured_[codes.at(y, x)] : &in_state_[state[x]]);  // no branch
+        trust.confidence.at(y, x) = pair.confidence;
+        trust.sigma_px.at(y, x) = pair.sigma_px;
       }
+    }
   });
+  return trust;
 }
 
-void Trust::reject(MatchMaps& maps, float min_confidence, int threads) {
+void Trust::reject(MatchMaps& maps, const Maps& trust, float min_confidence, int threads) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-  parallelStrips(threads, confidence.height(), 32, [&](int begin, int end) {
+  parallelStrips(threads, trust.confidence.height, 32, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
-      for (int x = 0; x < confidence.width(); ++x) {
+      for (int x = 0; x < trust.confidence.width; ++x) {
         std::uint8_t& state = maps.state.row(y)[x];
-        if (!isMeasured(static_cast<PixelState>(state)) || confidence.row(y)[x] >= min_confidence) continue;
+        float& confidence = trust.confidence.at(y, x);
+        if (!isMeasured(static_cast<PixelState>(state)) || confidence >= min_confidence) continue;
         state = static_cast<std::uint8_t>(PixelState::kAmbiguous);
-        maps.disparity.row(y)[x] = sigma_px.row(y)[x] = kNan;
-        confidence.row(y)[x] = 0;
+        maps.disparity.row(y)[x] = trust.sigma_px.at(y, x) = kNan;
+        confidence = 0;
       }
   });
 }

@@ -122,10 +122,19 @@ void MatchingCostRows::prepareSupport(const ColorSteps& steps, int color_step, A
   supported_ = color_step > 0;
   if (!supported_) return;
   arms_ = arena.image<std::uint8_t>(width_, height_);
+  const Arena::Scope scope(arena);
+  const auto left_steps = arena.image<std::uint8_t>(width_ + 2, height_);
+  const auto above_steps = arena.image<std::uint8_t>(width_ + 2, height_);
   parallelStrips(threads, height_, 16, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
-      const std::uint8_t *left = steps.left(y), *above = steps.above(y);
-      const std::uint8_t* below = steps.above(std::min(y + 1, height_ - 1));
+      steps.left(y, left_steps.row(y));
+      steps.above(y, above_steps.row(y));
+    }
+  });
+  parallelStrips(threads, height_, 16, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      const std::uint8_t *left = left_steps.row(y) + 1, *above = above_steps.row(y) + 1;
+      const std::uint8_t* below = above_steps.row(std::min(y + 1, height_ - 1)) + 1;
       std::uint8_t* arms = arms_.row(y);
       const bool has_above = y > 0, has_below = y + 1 < height_;
       for (int x = 0; x < width_; ++x)

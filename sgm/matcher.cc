@@ -17,7 +17,7 @@ void finishRow(const WinnerRow& w, int y, const MatchOptions& o, const SgmKernel
   refine({width, o.disparities, o.min_disparity, w.right_index, w.right_best, w.right_below, w.right_above,
           out.right_disparity.row(y)});
 
-  kernels.score({width, w.best, w.below, w.above, w.second, out.margin.row(y), out.curvature.row(y)});
+  kernels.score({width, w.best, w.below, w.above, w.second, out.margin(y), out.curvature(y)});
 
   constexpr auto kMeasured = static_cast<std::uint8_t>(PixelState::kMeasured);
   std::uint8_t* state = out.state.row(y);
@@ -50,8 +50,7 @@ struct View {
 void MatchMaps::resize(int width, int height) {
   disparity.resize(width, height);
   right_disparity.resize(width, height);
-  margin.resize(width, height);
-  curvature.resize(width, height);
+  scores.resize(2 * width, height);
   state.resize(width, height);
 }
 
@@ -75,9 +74,7 @@ void SgmMatcher::findWinners(const MatchInput& pair, const MatchOptions& options
     cost_.setRight(right.features(), threads);
   }
 
-  ColorSteps steps;
-  const bool adapts = options.aggregation.adaptation != PenaltyAdaptation::kConstant;
-  if (adapts || options.cost.support_color_step > 0) steps.compute(pair.guide, kernels, scratch, threads);
+  const ColorSteps steps(pair.guide, kernels);
   cost_.prepareSupport(steps, options.cost.support_color_step, scratch, threads);
   if (!pair.prior.empty())
     cost_.preparePrior(pair.prior, options.prior_weight, options.prior_reach_px, scratch, threads);

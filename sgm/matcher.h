@@ -38,10 +38,16 @@ struct MatchOptions {
 struct MatchMaps {
   Image<float> disparity;        ///< of the left view; never NaN
   Image<float> right_disparity;  ///< of the right view; NaN where no left pixel maps to
-  /// Of the path sums S: how clearly the winner won, the lowest more than one disparity away less S(d),
-  /// large if there is none; and how sharply, S(d - 1) + S(d + 1) - 2 S(d).
-  Image<std::uint16_t> margin, curvature;
-  Image<std::uint8_t> state;  ///< PixelState: measured, or ambiguous where uniqueness fails
+  Image<std::uint8_t> state;     ///< PixelState: measured, or ambiguous where uniqueness fails
+  /// Rows of what tells how clearly the winner won, of the path sums S: the lowest more than one disparity
+  /// away less S(d), large if there is none;
+  std::uint16_t* margin(int y) { return scores.row(y); }
+  const std::uint16_t* margin(int y) const { return scores.row(y); }
+  /// and how sharply: S(d - 1) + S(d + 1) - 2 S(d).
+  std::uint16_t* curvature(int y) { return scores.row(y) + disparity.width(); }
+  const std::uint16_t* curvature(int y) const { return scores.row(y) + disparity.width(); }
+
+  Image<std::uint16_t> scores;  ///< the two above, side by side
 
   void resize(int width, int height);
 };

@@ -65,6 +65,9 @@ std::size_t SweepPlan::stateBytes() const {
   const std::size_t minima = 4 * sizeof(std::uint32_t) * static_cast<std::size_t>(width() + 2);
   return 3 * pathBytes() + (minima + 63) / 64 * 64;
 }
+std::size_t SweepPlan::stepRowBytes() const {
+  return staggered(static_cast<std::size_t>(width() + 2));
+}
 int SweepPlan::recentPixels() const {
   return static_cast<int>(std::bit_ceil(static_cast<unsigned>(cost_.range().disparities + 2 + kWinnerBlock)));
 }
@@ -95,17 +98,23 @@ void SweepPlan::makeWinnerTables(Arena& arena) {
 }
 
 /// The steps into row y come from row y + from_row (three paths) and from column x + from_column (the
-/// horizontal one).
-AggregateRow SweepPlan::row(int y, int from_row, int from_column, std::uint8_t* state) const {
+/// horizontal one). `steps`: room for 4 stepRowBytes().
+AggregateRow SweepPlan::row(int y, int from_row, int from_column, std::uint8_t* state,
+                            std::uint8_t* steps) const {
   const std::uint8_t *left = no_steps_, *straight = left, *right = left, *horizontal = left;
-  if (options_.adaptation != PenaltyAdaptation::kConstant) {
+  if (adaptsPenalties()) {
+    const auto room = [&](int i) { return steps + i * stepRowBytes(); };
     const int seam = from_row < 0 ? y : std::min(y + 1, height() - 1);  // the row that holds the steps
-    straight = steps_.above(seam);
+    steps_.aboveLeft(seam, room(0));
+    steps_.above(seam, room(1));
+    steps_.aboveRight(seam, room(2));
+    steps_.left(y, room(3));
+    straight = room(1) + 1;
     // Upwards, (x - 1, y + 1) sees the step to (x, y) to its upper right, and (x + 1, y + 1) to its upper
     // left.
-    left = from_row < 0 ? steps_.aboveLeft(seam) : steps_.aboveRight(seam) - 1;
-    right = from_row < 0 ? steps_.aboveRight(seam) : steps_.aboveLeft(seam) + 1;
-    horizontal = steps_.left(y) + (from_column < 0 ? 0 : 1);
+    left = from_row < 0 ? room(0) + 1 : room(2);
+    right = from_row < 0 ? room(2) + 1 : room(0) + 2;
+    horizontal = room(3) + (from_column < 0 ? 1 : 2);
   }
   return {.width = width(),
           .vectors = cost_.range().vectors,
@@ -143,7 +152,7 @@ WinnerRow SweepPlan::winners() const {
 struct Sweep::Lane {
   struct Row {
     std::uint8_t* cost = nullptr;  // null if costs are computed on the way
-    std::uint8_t* border = nullptr;
+    std::uint8_t *steps = nullptr, *border = nullptr;
     WinnerRow winners;
   };
 
@@ -162,6 +171,7 @@ void Sweep::Lane::prepare(const SweepPlan& plan, int group_rows, Arena& arena) {
   const std::size_t step = staggered(sizeof(std::uint16_t) * plan.width()) / sizeof(std::uint16_t);
   for (int i = 0; i < group_rows; ++i) {
     Row& row = rows[i];
+    if (plan.adaptsPenalties()) row.steps = arena.take<std::uint8_t>(4 * plan.stepRowBytes());
     if (!plan.computesCosts()) row.cost = arena.take<std::uint8_t>(plan.costRowBytes());
     WinnerRow& w = row.winners;
     w = plan.winners();
@@ -230,7 +240,7 @@ void Sweep::walkGroup(const Walk& walk, int group) {
   for (int i = 0; i < rows; ++i) {
     const int y = run.y + (first + i) * run.step;
     const Lane::Row& row = lane.rows[i];
-    paths[i] = plan_.row(y, -run.step, walk.sink ? 1 : -1, walk.state);
+    paths[i] = plan_.row(y, -run.step, walk.sink ? 1 : -1, walk.state, row.steps);
     if (row.cost) lane.cost.row(y, row.cost);
     paths[i].cost = row.cost;
     paths[i].border = row.border;

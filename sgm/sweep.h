@@ -42,7 +42,9 @@ class SweepPlan {
   std::size_t costRowBytes() const;
   int recentPixels() const;
   void makeWinnerTables(Arena& arena);
-  AggregateRow row(int y, int from_row, int from_column, std::uint8_t* state) const;
+  bool adaptsPenalties() const { return options_.adaptation != PenaltyAdaptation::kConstant; }
+  std::size_t stepRowBytes() const;
+  AggregateRow row(int y, int from_row, int from_column, std::uint8_t* state, std::uint8_t* steps) const;
   WinnerRow winners() const;
 
   const MatchingCostRows& cost_;

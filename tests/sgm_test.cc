@@ -108,7 +108,7 @@ struct WinnerMaps {
 /// Both memory modes, which must agree with the textbook and so with each other.
 template <typename Check>
 void aggregateBoth(const MatchingCostRows& cost, const ColorSteps& steps, const AggregationOptions& options,
-               const SgmKernels& kernels, int threads, Check&& check) {
+                   const SgmKernels& kernels, int threads, Check&& check) {
   for (MemoryMode memory : {MemoryMode::kSpeed, MemoryMode::kLow}) {
     Arena scratch;
     WinnerMaps winners(cost.width(), cost.height());
@@ -167,15 +167,15 @@ void compareWithTextbook(const Setup& s) {
       Arena arena;
       const CensusPlanes left = computeCensus<T>(pair.left.view(), s.cost, kernels, arena, threads);
       const CensusPlanes right = computeCensus<T>(pair.right.view(), s.cost, kernels, arena, threads);
-      ColorSteps steps;
-      steps.compute(colorView(guide), kernels, arena, threads);
+      const ColorSteps steps(colorView(guide), kernels);
       MatchingCostRows cost;
       cost.startCensus({&left, {}, {}}, maximumCost(s.cost),
                        makeRange(s.min_disparity, s.disparities, kernels), kernels, arena);
       cost.setRight({&right, {}, {}}, threads);
-      aggregateBoth(cost, steps, s.aggregation, kernels, threads, [&](const WinnerMaps& got, const char* memory) {
-        expectEqual(got, want, describe(s, isa, threads) + memory);
-      });
+      aggregateBoth(cost, steps, s.aggregation, kernels, threads,
+                    [&](const WinnerMaps& got, const char* memory) {
+                      expectEqual(got, want, describe(s, isa, threads) + memory);
+                    });
       if (testing::Test::HasFatalFailure()) return;
     }
 }
@@ -267,19 +267,19 @@ TEST(Sgm, BlendedCostWithSupportEqualsTextbook) {
               codes[i] = computeCensus(gray[i], MatchingCost::kBlended, kernels, arena, threads);
               sobel[i] = computeSobel(gray[i], kernels, arena, threads);
             }
-            ColorSteps steps;
-            steps.compute(colorView(guide), kernels, arena, threads);
+            const ColorSteps steps(colorView(guide), kernels);
             MatchingCostRows cost;
             cost.startBlended({&codes[0], sobel[0], gray[0]}, 45, makeRange(from, disparities, kernels),
                               kernels, arena);
             cost.setRight({&codes[1], sobel[1], gray[1]}, threads);
             cost.prepareSupport(steps, step, arena, threads);
-            aggregateBoth(cost, steps, kSoft, kernels, threads, [&](const WinnerMaps& got, const char* memory) {
-              expectEqual(got, want,
-                          "blended, " + std::string(name(isa)) + " support " + std::to_string(step) +
-                              " content " + std::to_string(static_cast<int>(content)) + " width " +
-                              std::to_string(width) + memory);
-            });
+            aggregateBoth(
+                cost, steps, kSoft, kernels, threads, [&](const WinnerMaps& got, const char* memory) {
+                  expectEqual(got, want,
+                              "blended, " + std::string(name(isa)) + " support " + std::to_string(step) +
+                                  " content " + std::to_string(static_cast<int>(content)) + " width " +
+                                  std::to_string(width) + memory);
+                });
             if (testing::Test::HasFatalFailure()) return;
           }
       }
@@ -303,8 +303,7 @@ TEST(Sgm, TableCostEqualsTextbook) {
   for (Isa isa : usableIsas()) {
     const SgmKernels& kernels = sgmKernels(isa);
     Arena arena;
-    ColorSteps steps;
-    steps.compute(gray, kernels, arena, 1);
+    const ColorSteps steps(gray, kernels);
     MatchingCostRows cost;
     cost.startTable({nullptr, {}, pair.left.view()}, std::span<const std::uint8_t, 65536>(table), 127,
                     makeRange(-3, 37, kernels), kernels, arena);
@@ -348,8 +347,7 @@ TEST(Sgm, PriorAddsItsRampToTheCost) {
       return computeCensus<std::uint8_t>(gray.view(), MatchingCost::kCensus5x5, kernels, arena, 2);
     };
     const CensusPlanes left = codesOf(pair.left), right = codesOf(pair.right);
-    ColorSteps steps;
-    steps.compute(colorView(guide), kernels, arena, 2);
+    const ColorSteps steps(colorView(guide), kernels);
     MatchingCostRows cost;
     cost.startCensus({&left, {}, {}}, 24, makeRange(from, disparities, kernels), kernels, arena);
     cost.setRight({&right, {}, {}}, 2);
@@ -388,8 +386,8 @@ TEST(Sgm, MatcherRefinesAndMarksAmbiguousPixels) {
         EXPECT_NEAR(maps.disparity.row(y)[x], expected, 1e-5);
         const bool unique = best <= 0.8 * want.second[i] + 1e-9;
         EXPECT_EQ(maps.state.row(y)[x] == static_cast<std::uint8_t>(PixelState::kMeasured), unique);
-        EXPECT_EQ(maps.margin.row(y)[x], want.second[i] - best);
-        EXPECT_EQ(maps.curvature.row(y)[x], std::max(0.0, want.below[i] + want.above[i] - 2 * best));
+        EXPECT_EQ(maps.margin(y)[x], want.second[i] - best);
+        EXPECT_EQ(maps.curvature(y)[x], std::max(0.0, want.below[i] + want.above[i] - 2 * best));
         ambiguous += !unique;
         if (want.right_index[i] < 0) {
           EXPECT_TRUE(std::isnan(maps.right_disparity.row(y)[x]));

@@ -80,17 +80,15 @@ void runChecks(KernelMaterial& m, const KernelTables& tables) {
 
 void runTrust(KernelMaterial& m, const KernelTables& tables) {
   MatchMaps& maps = m.trusted;
-  if (maps.disparity.width() == 0) {
-    maps.resize(m.size.width, m.size.height);
-    copyPixels<float>(m.dense.view(), maps.disparity);
-    copyPixels<float>(m.right_disparity.view(), maps.right_disparity);
-    for (int y = 0; y < m.size.height; ++y) {
-      std::fill_n(maps.margin.row(y), m.size.width, std::uint16_t{100});
-      std::fill_n(maps.curvature.row(y), m.size.width, std::uint16_t{100});
-      std::fill_n(maps.state.row(y), m.size.width, static_cast<std::uint8_t>(PixelState::kMeasured));
-    }
+  maps.resize(m.size.width, m.size.height);
+  copyPixels<float>(m.dense.view(), maps.disparity);
+  copyPixels<float>(m.right_disparity.view(), maps.right_disparity);
+  for (int y = 0; y < m.size.height; ++y) {
+    std::fill_n(maps.margin(y), m.size.width, std::uint16_t{100});
+    std::fill_n(maps.curvature(y), m.size.width, std::uint16_t{100});
+    std::fill_n(maps.state.row(y), m.size.width, static_cast<std::uint8_t>(PixelState::kMeasured));
   }
-  m.trust.estimate(maps, 8 * maximumCost(m.options.cost.cost), tables.filters, 1);
+  m.trust.estimate(maps, 8 * maximumCost(m.options.cost.cost), tables.filters, m.scratch, 1);
 }
 
 void runMedians(KernelMaterial& m, const KernelTables& tables) {

@@ -70,9 +70,7 @@ void MatchingParts::run(const Options& o, const ImagePair& pair, StageClock& clo
     for (auto& view : features) view.sobel = computeSobel(view.gray, kernels, scratch, threads);
     clock.lap("Sobel");
   }
-  ColorSteps steps;
-  steps.compute(in.guide, kernels, scratch, threads);
-  clock.lap("colour steps");
+  const ColorSteps steps(in.guide, kernels);
   const DisparityRange range = makeRange(o.min_disparity, o.num_disparities, kernels);
   const auto start = blended ? &MatchingCostRows::startBlended : &MatchingCostRows::startCensus;
   (cost.*start)(features[0], maximumCost(o.cost.cost), range, kernels, scratch);
