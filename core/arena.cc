@@ -16,7 +16,9 @@ std::uint8_t* Arena::takeBytes(std::size_t count, std::size_t size) {
   while (end_.piece < pieces_.size() && pieces_[end_.piece].bytes - end_.used < bytes)
     end_ = {end_.piece + 1, 0, end_.total};
   if (end_.piece == pieces_.size()) {
-    const std::size_t wanted = std::max({bytes, kSmallestPiece, pieces_.empty() ? most_ : 0});
+    // A quarter more than was ever needed: it costs nothing as long as nobody touches it, and spares a piece
+    // for a stage that needs a little more than those before it.
+    const std::size_t wanted = std::max({bytes, kSmallestPiece, pieces_.empty() ? most_ + most_ / 4 : 0});
     pieces_.push_back({nullptr, wanted});
     try {
       pieces_.back().memory.reset(static_cast<std::uint8_t*>(allocateAligned(wanted, Pages::kHuge)));

@@ -16,8 +16,8 @@ namespace pomona {
 /// once, when it ends. Serves one thread at a time; those who work on what was taken may be many.
 ///
 /// The memory itself is kept from frame to frame. It grows piece by piece; as soon as none of it is in use,
-/// several pieces are replaced by one as large as all that was ever in use at a time, so that after the first
-/// frames nothing is allocated any more, and no stage adds to the memory of another.
+/// several pieces are given back, and the next one has room for all that was ever in use at a time. So after
+/// the first frames nothing is allocated any more, and no stage adds to the memory of another.
 class Arena {
  public:
   /// While it lives, memory may be taken. Scopes nest.

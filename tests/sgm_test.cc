@@ -95,6 +95,17 @@ struct WinnerMaps {
          {&index, &best, &below, &above, &second, &right_index, &right_best, &right_below, &right_above})
       map->resize(width, height);
   }
+  bool operator==(const WinnerMaps& other) const {
+    const auto same = [](const Image<std::uint16_t>& a, const Image<std::uint16_t>& b) {
+      for (int y = 0; y < a.height(); ++y)
+        if (!std::equal(a.row(y), a.row(y) + a.width(), b.row(y))) return false;
+      return true;
+    };
+    return same(index, other.index) && same(best, other.best) && same(below, other.below) &&
+           same(above, other.above) && same(second, other.second) && same(right_index, other.right_index) &&
+           same(right_best, other.right_best) && same(right_below, other.right_below) &&
+           same(right_above, other.right_above);
+  }
   void take(int y, const WinnerRow& w) {
     const auto copy = [&](const std::uint16_t* from, Image<std::uint16_t>& to) {
       std::copy_n(from, to.width(), to.row(y));
@@ -356,6 +367,59 @@ TEST(Sgm, PriorAddsItsRampToTheCost) {
       expectEqual(got, want, "prior, isa " + std::string(name(isa)) + memory);
     });
   }
+}
+
+/// The winners of a noisy pair that is large enough for several groups of rows and tiles of columns.
+WinnerMaps winnersOf(const MatchOptions& options, Isa isa, int threads) {
+  const int width = 215, height = 61;
+  const TestPair<std::uint8_t> pair = makePair<std::uint8_t>(width, height, Content::kShifted);
+  const Image<std::uint8_t> guide = makeGuide(width, height);
+  WinnerMaps winners(width, height);
+  SgmMatcher matcher;
+  Arena scratch;
+  matcher.findWinners(
+      {pair.left.view(), pair.right.view(), {}, {}, colorView(guide)}, options, {}, sgmKernels(isa),
+      [&](int y, const WinnerRow& row) { winners.take(y, row); }, scratch, threads);
+  return winners;
+}
+
+TEST(Sgm, IsTheSameForAnyNumberOfThreads) {
+  const MatchOptions cheap{-3, 70, {MatchingCost::kCensus5x5, 0}, {8, 5, 39, 10}, {}};
+  MatchOptions stored = cheap, wide = cheap, few_paths = cheap;
+  stored.cost = {MatchingCost::kBlended, 8};
+  wide.aggregation.p2 = 100;
+  few_paths.aggregation.paths = 4;
+  for (Isa isa : usableIsas())
+    for (MatchOptions o : {cheap, stored, wide, few_paths}) {
+      o.memory = MemoryMode::kSpeed;
+      const WinnerMaps want = winnersOf(o, isa, 1);
+      for (MemoryMode memory : {MemoryMode::kSpeed, MemoryMode::kLow})
+        for (int threads : {1, 2, 3, 4, 7, 8, 16}) {
+          o.memory = memory;
+          const WinnerMaps got = winnersOf(o, isa, threads);
+          ASSERT_TRUE(got == want) << name(isa) << " cost " << static_cast<int>(o.cost.cost) << " P2 "
+                                   << o.aggregation.p2 << " paths " << o.aggregation.paths << " memory "
+                                   << static_cast<int>(memory) << " threads " << threads;
+        }
+    }
+}
+
+TEST(Sgm, LowMemoryKeepsFarLess) {
+  const int width = 64, height = 600;
+  const TestPair<std::uint8_t> pair = makePair<std::uint8_t>(width, height, Content::kNoise);
+  const Image<std::uint8_t> guide = makeGuide(width, height);
+  const auto bytesOf = [&](MemoryMode memory) {
+    MatchOptions o{0, 64, {MatchingCost::kCensus5x5, 0}, {8, 5, 39, 10}, {}, memory};
+    SgmMatcher matcher;
+    Arena scratch;
+    for (int frame = 0; frame < 2; ++frame)  // the first makes do with pieces
+      matcher.findWinners(
+          {pair.left.view(), pair.right.view(), {}, {}, colorView(guide)}, o, {},
+          sgmKernels(usableIsas().back()), [](int, const WinnerRow&) {}, scratch, 1);
+    return scratch.capacity();
+  };
+  // The sums of 600 rows against checkpoints and sums that are worth 2 x 43 rows, and what both need.
+  EXPECT_LT(2 * bytesOf(MemoryMode::kLow), bytesOf(MemoryMode::kSpeed));
 }
 
 TEST(Sgm, MatcherRefinesAndMarksAmbiguousPixels) {
