@@ -8,8 +8,8 @@
 namespace pomona {
 namespace {
 
-constexpr int kMostGroupRows = 8;
-constexpr int kTileColumns = 64;
+constexpr int kGroupRows = 4;  // more of them cost more, as does a narrow tile; see docs/simd.md
+constexpr int kMostTileColumns = 128;
 
 constexpr std::uint32_t quad(int byte) {
   return static_cast<std::uint32_t>(byte) * 0x01010101u;
@@ -160,7 +160,7 @@ struct Sweep::Lane {
 
   CostRowReader cost;
   std::uint8_t* unwanted_sums = nullptr;
-  std::array<Row, kMostGroupRows> rows;
+  std::array<Row, kGroupRows> rows;
   int occupied = 0;  // shared
 };
 
@@ -193,7 +193,7 @@ struct Sweep::Walk {
 };
 
 Sweep::Sweep(const SweepPlan& plan, Arena& arena, int threads)
-    : plan_(plan), threads_(threads), group_rows_(threads > 1 ? kMostGroupRows : 1) {
+    : plan_(plan), threads_(threads), group_rows_(threads > 1 ? kGroupRows : 1) {
   lanes_ = arena.take<Lane>(threads);
   for (int i = 0; i < threads; ++i) {
     lanes_[i] = Lane();
@@ -217,7 +217,7 @@ void Sweep::complete(const RowRun& run, std::uint8_t* state, WinnerSink sink) {
 void Sweep::walk(const RowRun& run, std::uint8_t* state, const WinnerSink* sink) {
   const int width = plan_.width(), groups = (run.count + group_rows_ - 1) / group_rows_;
   const int columns =
-      group_rows_ == 1 ? width : std::clamp(width / (2 * threads_), group_rows_, kTileColumns);
+      group_rows_ == 1 ? width : std::clamp(width / (2 * threads_), group_rows_, kMostTileColumns);
   const Walk walk{run, state, sink, columns, (width + group_rows_ - 1 + columns - 1) / columns};
   std::fill_n(progress_, groups, TaskProgress());
   parallelFor(threads_, groups, [&](int group) { walkGroup(walk, group); });
@@ -236,7 +236,7 @@ void Sweep::walkGroup(const Walk& walk, int group) {
   const int first = group * group_rows_, rows = std::min(group_rows_, run.count - first);
   const int width = plan_.width();
   Lane& lane = enterLane();
-  AggregateRow paths[kMostGroupRows];
+  AggregateRow paths[kGroupRows];
   for (int i = 0; i < rows; ++i) {
     const int y = run.y + (first + i) * run.step;
     const Lane::Row& row = lane.rows[i];

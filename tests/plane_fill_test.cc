@@ -1,6 +1,8 @@
 #include "pyramid/plane_fill.h"
 
 #include "pyramid/holes.h"
+#include "pyramid/scale.h"
+#include "pyramid/segment_cells.h"
 #include "tests/pyramid_support.h"
 
 namespace pomona {
