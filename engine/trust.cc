@@ -71,15 +71,16 @@ Trust::Maps Trust::estimate(MatchMaps& maps, int largest_cost_sum, const FilterK
       {reinterpret_cast<float*>(maps.scores.row(0)), width, height, maps.scores.view().stride / 2},
       maps.right_disparity.view()};
   const Arena::Scope scope(scratch);
-  const auto codes = scratch.image<std::uint16_t>(width, height);
+  const auto first_codes = scratch.image<std::uint16_t>(width, height);  // a row for every strip
   parallelStrips(threads, height, 32, [&](int y_begin, int y_end) {
     for (int y = y_begin; y < y_end; ++y) {
+      std::uint16_t* const codes = first_codes.row(y_begin);
       for (int x = 0; x < width; x += kMatchChunk)
-        trustCodes(maps, largest_cost_sum, y, x, std::min(kMatchChunk, width - x), kernels, codes.row(y) + x);
+        trustCodes(maps, largest_cost_sum, y, x, std::min(kMatchChunk, width - x), kernels, codes + x);
       const std::uint8_t* state = maps.state.row(y);
       for (int x = 0; x < width; ++x) {
         const bool measured = isMeasured(static_cast<PixelState>(state[x]));
-        const Pair& pair = *(measured ? &measured_[codes.at(y, x)] : &in_state_[state[x]]);  // no branch
+        const Pair& pair = *(measured ? &measured_[codes[x]] : &in_state_[state[x]]);  // no branch
         trust.confidence.at(y, x) = pair.confidence;
         trust.sigma_px.at(y, x) = pair.sigma_px;
       }

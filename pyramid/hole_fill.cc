@@ -45,9 +45,10 @@ std::uint8_t filledState(std::uint8_t state) {
 class HoleFiller {
  public:
   HoleFiller(const HoleFillInput& in, ImageView<float> disparity, ImageView<std::uint8_t> state,
-             const HoleRays& rays, Arena& arena, const PyramidKernels& kernels, int threads)
-      : in_(in), disparity_(disparity), state_(state), rays_(rays), kernels_(kernels) {
-    packGuide(arena, threads);
+             const HoleRays& rays, ImageView<std::uint32_t> colors, Arena& arena,
+             const PyramidKernels& kernels, int threads)
+      : in_(in), disparity_(disparity), state_(state), rays_(rays), colors_(colors), kernels_(kernels) {
+    packGuide(threads);
     tabulateWeights(arena);
   }
 
@@ -90,8 +91,7 @@ class HoleFiller {
   }
 
  private:
-  void packGuide(Arena& arena, int threads) {
-    colors_ = arena.image<std::uint32_t>(in_.guide.width, in_.guide.height);
+  void packGuide(int threads) {
     parallelStrips(threads, in_.guide.height, kMinLinesPerStrip, [&](int begin, int end) {
       for (int y = begin; y < end; ++y)
         kernels_.packColors(in_.guide.row(y), in_.guide.channels, in_.guide.width, colors_.row(y));
@@ -220,11 +220,13 @@ void fillDistant(ImageView<float> disparity, ImageView<std::uint8_t> state, floa
 void fillHoles(const HoleFillInput& in, ImageView<float> disparity, ImageView<std::uint8_t> state,
                Arena& scratch, const PyramidKernels& kernels, int threads) {
   const Arena::Scope scope(scratch);
+  // Before the rays, whose room for all there could be is hardly touched.
+  const auto colors = scratch.image<std::uint32_t>(in.guide.width, in.guide.height);
   HoleRays rays;
   rays.findHoles(disparity, state, scratch, threads);
   if (rays.count() == 0) return;
   rays.follow(in.search_radius_px, kernels, threads);
-  HoleFiller filler(in, disparity, state, rays, scratch, kernels, threads);
+  HoleFiller filler(in, disparity, state, rays, colors, scratch, kernels, threads);
   const auto all = [&](int count, int min_per_strip, auto&& fill) {
     std::atomic<bool> complete{true};
     parallelStrips(threads, count, min_per_strip, [&](int begin, int end) {
