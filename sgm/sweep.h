@@ -8,53 +8,15 @@
 // and the only thing that threads wait for is the progress of the group before.
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/arena.h"
 #include "core/parallel.h"
-#include "pomona/options.h"
 #include "sgm/aggregation.h"
-#include "sgm/color_steps.h"
-#include "sgm/cost.h"
-#include "sgm/kernels.h"
+#include "sgm/sweep_plan.h"
 
 namespace pomona {
-
-/// What both sweeps of a frame have in common: sizes and tables, which lie in the scope of `arena` that was
-/// current when they were made. Borrows all that it is made from.
-class SweepPlan {
- public:
-  SweepPlan(const MatchingCostRows& cost, const ColorSteps& steps, const AggregationOptions& options,
-            const SgmKernels& kernels, Arena& arena);
-
-  int width() const { return cost_.width(); }
-  int height() const { return cost_.height(); }
-  std::size_t sumRowBytes() const;  ///< of the sums of one sweep
-  std::size_t stateBytes() const;   ///< of what a sweep carries from row to row
-
- private:
-  friend class Sweep;
-  bool hasWideSums() const { return options_.p2 > 63; }
-  bool computesCosts() const { return cost_.areCheap() && options_.paths == 8 && !hasWideSums(); }
-  int labelBits() const;
-  std::size_t pathBytes() const;
-  std::size_t costRowBytes() const;
-  int recentPixels() const;
-  void makeWinnerTables(Arena& arena);
-  bool adaptsPenalties() const { return options_.adaptation != PenaltyAdaptation::kConstant; }
-  std::size_t stepRowBytes() const;
-  AggregateRow row(int y, int from_row, int from_column, std::uint8_t* state, std::uint8_t* steps) const;
-  WinnerRow winners() const;
-
-  const MatchingCostRows& cost_;
-  const ColorSteps& steps_;
-  const AggregationOptions& options_;
-  const SgmKernels& kernels_;
-  std::array<std::uint32_t, 256> p2_of_step_;  // quads
-  const std::uint8_t* no_steps_;               // a row of zeros, for a constant P2
-  std::uint16_t *position_, *labels_, *padding_, *near_;
-};
 
 /// Rows that follow one another.
 struct RowRun {
@@ -83,7 +45,7 @@ class Sweep {
   struct Walk;
   void walk(const RowRun& run, std::uint8_t* state, const WinnerSink* sink);
   void walkGroup(const Walk& walk, int group);
-  Lane& enterLane();
+  Lane& enterLane();  // one that no other thread is in; there are as many as threads
 
   const SweepPlan& plan_;
   int threads_, group_rows_;

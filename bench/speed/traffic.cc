@@ -39,7 +39,7 @@ struct MatchBytes {
 
 Traffic matchTraffic(const MatchBytes& m, MemoryMode memory, int height, double pixels) {
   constexpr double kSides = 2, kDirections = 4, kGuide = 3;  // a colour image
-  const double sums = 2 * m.sum * m.lanes;  // written and read
+  const double sums = 2 * m.sum * m.lanes;                   // written and read
   const bool low = chooseMemory(memory, m.sum * m.lanes * pixels) == MemoryMode::kLow;
   const double passes = low ? 3 : 2;
   const double rows_per_checkpoint = 0.5 * std::sqrt(height * m.paths / m.sum);  // on average
@@ -49,7 +49,7 @@ Traffic matchTraffic(const MatchBytes& m, MemoryMode memory, int height, double 
                           + 2 * m.planes                // the right ones laid out anew
                           + passes * kSides * m.planes  // read by the cost kernel
                           + passes * kGuide;            // for the colour steps
-  const double maps = 4 + 4 + 4 + 1;  // disparities, margin, state
+  const double maps = 4 + 4 + 4 + 1;                    // disparities, margin, state
   const double costs = 2 * m.lanes + (m.supported ? m.supportKernel() : 0);
   Traffic t;
   t.memory = features + maps + (low ? checkpoints : sums);
