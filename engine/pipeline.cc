@@ -1,5 +1,7 @@
 #include "engine/pipeline.h"
 
+#include <utility>
+
 #include "core/parallel.h"
 #include "engine/trust.h"
 
@@ -7,7 +9,13 @@ namespace pomona {
 
 void Pipeline::run(const MatchInput& pair, ImageView<const std::uint8_t> mask, StageClock& clock) {
   const SparseStage::Settings s = settings(mask);
-  if (!isPaper()) match(pair, s, clock);
+  if (!isPaper()) {
+    if (options_.adaptive_range) {
+      bands_ = search_bands_.plan(pair, s);
+      clock.lap("search range");
+    }
+    match(pair, s, clock);
+  }
   if (isDense()) completion_.run(pair, s, options_.completion, maps(), clock);
   if (matchesTwice()) matchAgain(pair, s, clock);
 }
@@ -34,7 +42,7 @@ void Pipeline::match(const MatchInput& pair, const SparseStage::Settings& settin
     with_table.mutual_information = mutual_information_.table(pair, settings);
     clock.lap("mutual information");
   }
-  sparse_.run(pair, with_table, clock);
+  sparse_.run(pair, with_table, clock, bands_);
 }
 
 void Pipeline::noteBarePixels() {
@@ -61,14 +69,15 @@ void Pipeline::keepBarePixels() {
 /// The second pass: the completed map, which maps() holds, becomes the prior of another match.
 void Pipeline::matchAgain(const MatchInput& pair, const SparseStage::Settings& settings, StageClock& clock) {
   noteBarePixels();
+  std::swap(first_map_, maps().disparity);
   MatchInput views = pair;
-  views.prior = maps().disparity.view();
+  views.prior = first_map_.view();
   SparseStage::Settings again = settings;
   again.match.cost = options_.second_pass.cost;
   again.match.aggregation = options_.second_pass.aggregation;
   again.match.prior_weight = options_.second_pass.weight;
   again.match.prior_reach_px = options_.second_pass.reach_px;
-  sparse_.run(views, again, clock);
+  sparse_.run(views, again, clock, bands_);
   keepBarePixels();
   completion_.run(pair, settings, options_.completion, maps(), clock);
 }

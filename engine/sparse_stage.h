@@ -11,6 +11,16 @@
 
 namespace pomona {
 
+/// Rows [y, y + height) of the frame, to be searched for the disparities [min_disparity, min_disparity +
+/// disparities).
+struct SearchBand {
+  int y, height;
+  int min_disparity, disparities;
+
+  /// Rows above and below that are matched as well, so that the paths do not start at the band's border.
+  static constexpr int kMargin_px = 32;
+};
+
 class SparseStage {
  public:
   struct Settings {
@@ -20,15 +30,21 @@ class SparseStage {
     ImageView<const std::uint8_t> mask;                ///< empty, or 0 where a pixel is excluded
     Isa isa;
     int threads;
-    Arena* scratch;  ///< for whatever a stage needs only while it runs
+    Arena* scratch = nullptr;  ///< for whatever a stage needs only while it runs
   };
 
   /// Afterwards maps() holds the validated map: NaN with a reason wherever the state is not measured.
-  void run(const MatchInput& pair, const Settings& settings, StageClock& clock);
+  /// `bands`: none, or bands that cover the frame once; each keeps to its range instead of that of
+  /// `settings`.
+  void run(const MatchInput& pair, const Settings& settings, StageClock& clock,
+           std::span<const SearchBand> bands = {});
 
   MatchMaps& maps() { return maps_; }
+  const MatchMaps& maps() const { return maps_; }
 
  private:
+  void matchBand(const MatchInput& pair, const Settings& settings, const SearchBand& band);
+
   SgmMatcher matcher_;
   MatchMaps maps_;
 };

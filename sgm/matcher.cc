@@ -8,7 +8,6 @@
 #include "sgm/sobel.h"
 
 namespace pomona {
-namespace {
 
 void finishRow(const WinnerRow& w, int y, const MatchOptions& o, const SgmKernels& kernels, MatchMaps& out) {
   const int width = out.disparity.width();
@@ -28,6 +27,8 @@ void finishRow(const WinnerRow& w, int y, const MatchOptions& o, const SgmKernel
     if (100 * w.best[x] > keep_percent * w.second[x])
       state[x] = static_cast<std::uint8_t>(PixelState::kAmbiguous);
 }
+
+namespace {
 
 /// What a view is compared by; in the current scope of an arena.
 struct View {

@@ -52,10 +52,13 @@ struct MatchMaps {
   void resize(int width, int height);
 };
 
+/// Row y of the maps, which have their size, from its winners.
+void finishRow(const WinnerRow& winners, int y, const MatchOptions& options, const SgmKernels& kernels,
+               MatchMaps& out);
+
 class SgmMatcher {
  public:
   /// `table`: for kMutualInformation, the cost of every pair of 8-bit values (see mutual_information.h).
-  /// The prior may be out.disparity.
   void match(const MatchInput& pair, const MatchOptions& options, std::span<const std::uint8_t> table,
              const SgmKernels& kernels, MatchMaps& out, Arena& scratch, int threads);
 
