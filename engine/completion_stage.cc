@@ -9,9 +9,12 @@
 #include "pomona/pixel_state.h"
 #include "pyramid/hole_fill.h"
 #include "pyramid/plane_fill.h"
+#include "pyramid/segment_match.h"
 
 namespace pomona {
 namespace {
+
+static_assert(SegmentMatch::kMostDisparities >= kMaxDisparities);
 
 struct Limits {
   float low, high;
@@ -71,6 +74,8 @@ void CompletionStage::fillHolesOf(const MatchInput& pair, const SparseStage::Set
   const PyramidKernels& kernels = pyramidKernels(settings.isa);
   if (options.segment_planes)
     fillFromPlanes({.guide = pair.guide,
+                    .left = pair.left,
+                    .right = pair.right,
                     .right_disparity = maps.right_disparity.view(),
                     .scale = options.segment_scale,
                     .min_disparity = limits.low,

@@ -68,7 +68,7 @@ void SparseStage::run(const MatchInput& pair, const Settings& s, StageClock& clo
     maps_.resize(pair.left.width, pair.left.height);
     for (const SearchBand& band : bands) matchBand(pair, s, band);
   }
-  removeRejected(maps_, s.mask, s.threads);
+  if (!s.mask.empty() || s.match.winner.uniqueness_percent > 0) removeRejected(maps_, s.mask, s.threads);
   clock.lap("matching");
 
   if (v.left_right_px >= 0)

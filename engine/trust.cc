@@ -24,9 +24,9 @@ struct Fit {
 // Printed by bench/confidence.
 constexpr Fit kLogOdds = {2.6307, 0.16598, 0.019044, -0.083038, -0.042722, -1.3795};
 constexpr Fit kLogSigma = {-0.9996, -0.10548, 0.0013102, 0.025608, 0.02155, 0.68541};
-constexpr Trust::Pair kNothingStandsOut = {0.51f, 12.92f};
+constexpr TrustPair kNothingStandsOut = {0.51f, 12.92f};
 
-constexpr Trust::Pair trustInFilled(PixelState state) {
+constexpr TrustPair trustInFilled(PixelState state) {
   switch (state) {
     case PixelState::kFilledPlane:
       return {0.87f, 0.44f};
@@ -56,11 +56,12 @@ void trustCodes(const MatchMaps& maps, int largest_cost_sum, int y, int x_begin,
 Trust::Trust() {
   for (int code = 0; code < TrustFeatures::kCodes; ++code) {
     const TrustFeatures f = TrustFeatures::of(code);
-    measured_[code] = f.bare ? kNothingStandsOut
-                             : Pair{static_cast<float>(1 / (1 + std::exp(-kLogOdds.of(f)))),
-                                    static_cast<float>(std::exp(kLogSigma.of(f)))};
+    pairs_[code] = f.bare ? kNothingStandsOut
+                          : TrustPair{static_cast<float>(1 / (1 + std::exp(-kLogOdds.of(f)))),
+                                      static_cast<float>(std::exp(kLogSigma.of(f)))};
   }
-  for (int state = 0; state < 256; ++state) in_state_[state] = trustInFilled(static_cast<PixelState>(state));
+  for (int state = 0; state < 256; ++state)
+    pairs_[TrustFeatures::kCodes + state] = trustInFilled(static_cast<PixelState>(state));
 }
 
 Trust::Maps Trust::estimate(MatchMaps& maps, int largest_cost_sum, const FilterKernels& kernels,
@@ -73,17 +74,18 @@ Trust::Maps Trust::estimate(MatchMaps& maps, int largest_cost_sum, const FilterK
   const Arena::Scope scope(scratch);
   const auto first_codes = scratch.image<std::uint16_t>(width, height);  // a row for every strip
   parallelStrips(threads, height, 32, [&](int y_begin, int y_end) {
+    std::uint16_t* const codes = first_codes.row(y_begin);
+    const auto forEachChunk = [&](auto visit) {
+      for (int x = 0; x < width; x += kMatchChunk) visit(x, std::min(kMatchChunk, width - x));
+    };
     for (int y = y_begin; y < y_end; ++y) {
-      std::uint16_t* const codes = first_codes.row(y_begin);
-      for (int x = 0; x < width; x += kMatchChunk)
-        trustCodes(maps, largest_cost_sum, y, x, std::min(kMatchChunk, width - x), kernels, codes + x);
-      const std::uint8_t* state = maps.state.row(y);
-      for (int x = 0; x < width; ++x) {
-        const bool measured = isMeasured(static_cast<PixelState>(state[x]));
-        const Pair& pair = *(measured ? &measured_[codes[x]] : &in_state_[state[x]]);  // no branch
-        trust.confidence.at(y, x) = pair.confidence;
-        trust.sigma_px.at(y, x) = pair.sigma_px;
-      }
+      forEachChunk(
+          [&](int x, int count) { trustCodes(maps, largest_cost_sum, y, x, count, kernels, codes + x); });
+      forEachChunk([&](int x, int count) {
+        kernels.trustPairs(pairs_.data(), codes + x, maps.state.row(y) + x,
+                           static_cast<std::uint8_t>(PixelState::kMeasured), count,
+                           trust.confidence.row(y) + x, trust.sigma_px.row(y) + x);
+      });
     }
   });
   return trust;
