@@ -1,7 +1,6 @@
 #include "baselines/post_process.h"
 
 #include <cmath>
-#include <utility>
 
 #include "core/cpu.h"
 #include "filters/left_right.h"
@@ -13,23 +12,19 @@ namespace pomona {
 
 void validate(WindowMaps& maps, SearchRange range, const ValidationOptions& validation, int threads) {
   const int width = maps.disparity.width(), height = maps.disparity.height();
+  Arena scratch;
   if (validation.left_right_px >= 0) {
-    LeftRightScratch scratch;
     leftRightCheck(maps.disparity.view(), maps.state.view(), maps.right_disparity.view(),
                    validation.left_right_px, range.min, range.count, scratch, filterKernels(chooseIsa("")),
                    threads);
   }
   if (validation.speckle_size_px > 0) {
-    SpeckleScratch scratch;
     removeSpeckles(maps.disparity.view(), maps.state.view(), validation.speckle_size_px,
                    validation.speckle_step_px, scratch, filterKernels(chooseIsa("")), threads);
   }
   if (validation.median_size > 0) {
-    MedianScratch scratch;
-    Image<float> filtered(width, height);
-    medianFilter(maps.disparity.view(), filtered.view(), validation.median_size, filterKernels(chooseIsa("")),
-                 scratch, threads);
-    std::swap(maps.disparity, filtered);
+    medianFilter(maps.disparity.view(), maps.disparity.view(), validation.median_size,
+                 filterKernels(chooseIsa("")), scratch, threads);
   }
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
@@ -38,7 +33,7 @@ void validate(WindowMaps& maps, SearchRange range, const ValidationOptions& vali
 
 void fill(WindowMaps& maps, GuideView guide, SearchRange range, int threads) {
   const auto no_coarse_map = [] { return ImageView<const float>(); };
-  HoleFillScratch scratch;
+  Arena scratch;
   fillHoles({.guide = guide,
              .right_disparity = maps.right_disparity.view(),
              .coarse = no_coarse_map,

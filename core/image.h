@@ -83,12 +83,16 @@ class Image {
   Image() = default;
   Image(int width, int height) { resize(width, height); }
 
-  void resize(int width, int height) {
+  /// Elements from row to row.
+  static std::ptrdiff_t strideFor(int width) {
     constexpr std::ptrdiff_t kStep =
         Buffer<T>::kAlignment / sizeof(T) > 0 ? Buffer<T>::kAlignment / sizeof(T) : 1;
+    return (width + kStep - 1) / kStep * kStep;
+  }
+  void resize(int width, int height) {
     width_ = width;
     height_ = height;
-    stride_ = (width + kStep - 1) / kStep * kStep;
+    stride_ = strideFor(width);
     buffer_.resize(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height));
   }
   int width() const { return width_; }

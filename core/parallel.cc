@@ -123,6 +123,17 @@ void parallelFor(int threads, int count, FunctionRef<void(int)> task) {
   Pool::instance().run(job, threads);
 }
 
+void TaskProgress::reach(int value) {
+  const std::atomic_ref shared(reached);
+  shared.store(value, std::memory_order_release);
+  shared.notify_all();
+}
+
+void TaskProgress::await(int value) {
+  const std::atomic_ref shared(reached);
+  for (int seen; (seen = shared.load(std::memory_order_acquire)) < value;) shared.wait(seen);
+}
+
 void parallelStrips(int threads, int rows, int min_rows, FunctionRef<void(int, int)> task) {
   const int strips = std::clamp(rows / std::max(1, min_rows), 1, std::max(1, 4 * threads));
   if (threads <= 1 || strips == 1) {

@@ -30,6 +30,15 @@ class FunctionRef<R(Args...)> {
 /// `threads` <= 1 runs them here, one after the other.
 void parallelFor(int threads, int count, FunctionRef<void(int)> task);
 
+/// How far a task has come, for others that follow it. Those who wait sleep.
+struct TaskProgress {
+  int reached = 0;
+
+  /// What was written before is seen by those whom it lets go on. Rises only.
+  void reach(int value);
+  void await(int value);
+};
+
 /// Cuts `rows` into strips of at least `min_rows` (a few per thread) and calls `task(begin, end)` for each.
 void parallelStrips(int threads, int rows, int min_rows, FunctionRef<void(int, int)> task);
 

@@ -8,12 +8,13 @@
 namespace pomona {
 
 const MatchMaps& CoarseLook::run(const MatchInput& pair, int min_disparity, int disparities,
-                                 ImageView<const std::uint8_t> mask, Isa isa, int threads) {
+                                 ImageView<const std::uint8_t> mask, Isa isa, Arena& scratch, int threads) {
   constexpr int kUniquePercent = 10;
   const int width = scaledLength(pair.left.width, kFactor), height = scaledLength(pair.left.height, kFactor);
   ratio_ = static_cast<double>(pair.left.width) / width;
   const auto shrink = [&](ImageView<const std::uint8_t> in, Image<std::uint8_t>& out) {
-    areaDownscale(GuideView{in.data, in.width, in.height, 1, in.stride}, out, width, height, scale_,
+    out.resize(width, height);
+    areaDownscale(GuideView{in.data, in.width, in.height, 1, in.stride}, out.view(), scratch,
                   pyramidKernels(isa), threads);
   };
   shrink(pair.left, left_);
@@ -28,6 +29,7 @@ const MatchMaps& CoarseLook::run(const MatchInput& pair, int min_disparity, int 
   settings.mask = shrunkMask(mask, width, height, mask_);
   settings.isa = isa;
   settings.threads = threads;
+  settings.scratch = &scratch;
   StageClock untimed;
   stage_.run({left_.view(), right_.view(), {}, {}, {left_.row(0), width, height, 1, left_.view().stride}},
              settings, untimed);

@@ -18,7 +18,7 @@ class CoarseLook {
   /// `min_disparity` on. The map is valid until the next call, in pixels of its own size:
   /// scaledLength(side, kFactor).
   const MatchMaps& run(const MatchInput& pair, int min_disparity, int disparities,
-                       ImageView<const std::uint8_t> mask, Isa isa, int threads);
+                       ImageView<const std::uint8_t> mask, Isa isa, Arena& scratch, int threads);
 
   /// Whether the pixel of the map has a disparity, and a row around it that shows something. Across what is
   /// blank, disparities of its border spread and pass every check.
@@ -29,7 +29,6 @@ class CoarseLook {
 
  private:
   Image<std::uint8_t> left_, right_, mask_;
-  ScaleScratch scale_;
   SparseStage stage_;
   double ratio_ = kFactor;
 };

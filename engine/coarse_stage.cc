@@ -4,23 +4,31 @@
 #include <cmath>
 
 #include "engine/input.h"
+#include "filters/joint_bilateral.h"
+#include "pyramid/fusion.h"
+#include "pyramid/scale.h"
 
 namespace pomona {
 
 void CoarseStage::completeScale(Scale& s, int factor, const MatchInput& pair,
-                                const SparseStage::Settings& settings, const CompletionOptions& completion) {
+                                const SparseStage::Settings& settings, const CompletionOptions& completion,
+                                ImageView<float> enlarged) {
+  Arena& scratch = *settings.scratch;
+  const Arena::Scope scope(scratch);
   const GuideView guide = pair.guide;
   const int width = guide.width, height = guide.height, threads = settings.threads;
   const int w = scaledLength(width, factor), h = scaledLength(height, factor);
   const PyramidKernels& kernels = pyramidKernels(settings.isa);
-  const auto shrink = [&](GuideView in, Image<std::uint8_t>& out) {
-    areaDownscale(in, out, w, h, scale_scratch_, kernels, threads);
+  const auto shrunk = [&](GuideView in) {
+    const auto out = scratch.image<std::uint8_t>(w * in.channels, h);
+    areaDownscale(in, out, scratch, kernels, threads);
+    return out;
   };
-  shrink({pair.left.data, width, height, 1, pair.left.stride}, s.left);
-  shrink({pair.right.data, width, height, 1, pair.right.stride}, s.right);
-  shrink(guide, s.guide);
-  const GuideView small_guide{s.guide.row(0), w, h, guide.channels, s.guide.view().stride};
-  const MatchInput small{s.left.view(), s.right.view(), {}, {}, small_guide};
+  const auto left = shrunk({pair.left.data, width, height, 1, pair.left.stride});
+  const auto right = shrunk({pair.right.data, width, height, 1, pair.right.stride});
+  const auto colors = shrunk(guide);
+  const GuideView small_guide{colors.data, w, h, guide.channels, colors.stride};
+  const MatchInput small{left, right, {}, {}, small_guide};
 
   const double ratio = static_cast<double>(width) / w;
   SparseStage::Settings at_scale = settings;
@@ -33,28 +41,31 @@ void CoarseStage::completeScale(Scale& s, int factor, const MatchInput& pair,
   StageClock untimed;
   s.sparse.run(small, at_scale, untimed);
 
-  s.completed.resize(w, h);
+  const auto completed = scratch.image<float>(w, h);
   completeByBilateral(s.sparse.maps().disparity.view(), small_guide,
                       {completion.sigma_space_px, completion.sigma_range, BilateralTarget::kEveryPixel},
-                      s.completed.view(), s.bilateral, filterKernels(settings.isa), threads);
-  s.enlarged.resize(width, height);
-  bicubicUpscale(s.completed.view(), s.enlarged.view(), scale_scratch_, kernels, threads);
-  scaleDisparity(s.enlarged.view(), static_cast<float>(ratio), threads);
+                      completed, scratch, filterKernels(settings.isa), threads);
+  bicubicUpscale(completed, enlarged, scratch, kernels, threads);
+  scaleDisparity(enlarged, static_cast<float>(ratio), threads);
 }
 
 ImageView<const float> CoarseStage::run(const MatchInput& pair, const SparseStage::Settings& settings,
                                         const CompletionOptions& completion) {
-  for (std::size_t i = 0; i < kFactors.size(); ++i)
-    completeScale(scales_[i], kFactors[i], pair, settings, completion);
+  Arena& scratch = *settings.scratch;
+  const auto fullSize = [&] { return scratch.image<float>(pair.guide.width, pair.guide.height); };
+  const ImageView<float> a = fullSize();
+  const Arena::Scope scope(scratch);
+  const ImageView<float> b = fullSize();
+  completeScale(scales_[0], kFactors[0], pair, settings, completion, a);
+  completeScale(scales_[1], kFactors[1], pair, settings, completion, b);
 
   // A scale is all known or all unknown; where one is unknown the other one stands alone.
-  const Image<float>&a = scales_[0].enlarged, &b = scales_[1].enlarged;
-  if (std::isnan(a.row(0)[0])) return b.view();
-  if (std::isnan(b.row(0)[0])) return a.view();
-  fused_.resize(a.width(), a.height());
-  fuseEqual(a.view(), b.view(), completion.pyramid_levels, fused_.view(), fusion_,
-            pyramidKernels(settings.isa), settings.threads);
-  return fused_.view();
+  if (std::isnan(b.at(0, 0))) return a;
+  if (std::isnan(a.at(0, 0)))
+    for (int y = 0; y < a.height; ++y) std::copy_n(b.row(y), b.width, a.row(y));
+  else
+    fuseEqual(a, b, completion.pyramid_levels, a, scratch, pyramidKernels(settings.isa), settings.threads);
+  return a;
 }
 
 }  // namespace pomona

@@ -6,36 +6,28 @@
 
 #include "engine/hierarchical_mi.h"
 #include "engine/sparse_stage.h"
-#include "filters/joint_bilateral.h"
-#include "pyramid/fusion.h"
-#include "pyramid/scale.h"
 
 namespace pomona {
 
 class CoarseStage {
  public:
-  /// `settings` are those of the full size. Returns a dense map of the pair's size, in its pixels, valid
-  /// until the next call; all NaN if neither scale measured anything.
+  /// `settings` are those of the full size. Returns a dense map of the pair's size, in its pixels, in the
+  /// current scope of settings.scratch; all NaN if neither scale measured anything.
   ImageView<const float> run(const MatchInput& pair, const SparseStage::Settings& settings,
                              const CompletionOptions& completion);
 
  private:
   struct Scale {
-    Image<std::uint8_t> left, right, guide, mask;
+    Image<std::uint8_t> mask;
     HierarchicalMi mutual_information;
     SparseStage sparse;
-    BilateralScratch bilateral;
-    Image<float> completed, enlarged;
   };
   static constexpr std::array<int, 2> kFactors = {4, 5};
 
   void completeScale(Scale& scale, int factor, const MatchInput& pair, const SparseStage::Settings& settings,
-                     const CompletionOptions& completion);
+                     const CompletionOptions& completion, ImageView<float> enlarged);
 
   std::array<Scale, kFactors.size()> scales_;
-  ScaleScratch scale_scratch_;
-  FusionScratch fusion_;
-  Image<float> fused_;
 };
 
 }  // namespace pomona

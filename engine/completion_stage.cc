@@ -5,7 +5,11 @@
 #include <limits>
 
 #include "core/parallel.h"
+#include "engine/refinement.h"
 #include "pomona/pixel_state.h"
+#include "pyramid/hole_fill.h"
+#include "pyramid/plane_fill.h"
+#include "pyramid/segment_match.h"
 
 namespace pomona {
 namespace {
@@ -47,6 +51,7 @@ void CompletionStage::run(const MatchInput& pair, const SparseStage::Settings& s
 void CompletionStage::takeCoarse(const MatchInput& pair, const SparseStage::Settings& settings,
                                  const CompletionOptions& options, MatchMaps& maps) {
   maps.resize(pair.left.width, pair.left.height);
+  const Arena::Scope scope(*settings.scratch);
   const ImageView<const float> map = coarse_.run(pair, settings, options);
   const float lowest = Limits(settings.match).low;
   parallelStrips(settings.threads, map.height, 32, [&](int begin, int end) {
@@ -75,7 +80,7 @@ void CompletionStage::fillHolesOf(const MatchInput& pair, const SparseStage::Set
                     .scale = options.segment_scale,
                     .min_disparity = limits.low,
                     .max_disparity = limits.high},
-                   maps.disparity.view(), maps.state.view(), planes_, kernels, settings.threads);
+                   maps.disparity.view(), maps.state.view(), *settings.scratch, kernels, settings.threads);
   clock.lap("segment planes");
   const auto coarse_map = [&] { return coarse_.run(pair, settings, options); };
   fillHoles({.guide = pair.guide,
@@ -83,9 +88,10 @@ void CompletionStage::fillHolesOf(const MatchInput& pair, const SparseStage::Set
              .coarse = coarse_map,
              .search_radius_px = options.search_radius_px,
              .fallback_disparity = limits.low},
-            maps.disparity.view(), maps.state.view(), holes_, kernels, settings.threads);
+            maps.disparity.view(), maps.state.view(), *settings.scratch, kernels, settings.threads);
   clock.lap("hole filling");
-  refinement_.run(maps.disparity, pair.guide, options, filterKernels(settings.isa), settings.threads, clock);
+  refine(maps.disparity.view(), pair.guide, options, filterKernels(settings.isa), *settings.scratch,
+         settings.threads, clock);
 }
 
 }  // namespace pomona

@@ -2,10 +2,7 @@
 #pragma once
 
 #include "engine/coarse_stage.h"
-#include "engine/refinement.h"
 #include "engine/sparse_stage.h"
-#include "pyramid/hole_fill.h"
-#include "pyramid/plane_fill.h"
 
 namespace pomona {
 
@@ -24,9 +21,6 @@ class CompletionStage {
                   const CompletionOptions& options, MatchMaps& maps);
 
   CoarseStage coarse_;
-  PlaneFillScratch planes_;
-  HoleFillScratch holes_;
-  Refinement refinement_;
 };
 
 }  // namespace pomona

@@ -18,9 +18,9 @@ namespace pomona {
 namespace {
 
 template <typename T>
-cv::Mat shared(Image<T>& image, int type) {
-  return cv::Mat(image.height(), image.width(), type, image.row(0),
-                 static_cast<std::size_t>(image.view().stride) * sizeof(T));
+cv::Mat shared(ImageView<T> image, int type) {
+  return cv::Mat(image.height, image.width, type, image.data,
+                 static_cast<std::size_t>(image.stride) * sizeof(T));
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ struct StereoEngine::State {
   cv::Mat rectify(const cv::Mat& left_view, const cv::Mat& right_view, const cv::Mat& mask);
   RowOffsets checkRows();
   MatchInput alignedViews(const RowOffsets& rows);
-  void publish();
+  void publish(const Trust::Maps& estimated);
 };
 
 /// Sets `left` and `right`; returns the mask of the rectified left view.
@@ -89,12 +89,12 @@ MatchInput StereoEngine::State::alignedViews(const RowOffsets& rows) {
   return views;
 }
 
-void StereoEngine::State::publish() {
+void StereoEngine::State::publish(const Trust::Maps& estimated) {
   MatchMaps& maps = pipeline.maps();
-  result.disparity = shared(maps.disparity, CV_32F);
-  result.state = shared(maps.state, CV_8U);
-  result.confidence = shared(trust.confidence, CV_32F);
-  result.sigma_px = shared(trust.sigma_px, CV_32F);
+  result.disparity = shared(maps.disparity.view(), CV_32F);
+  result.state = shared(maps.state.view(), CV_8U);
+  result.confidence = shared(estimated.confidence, CV_32F);
+  result.sigma_px = shared(estimated.sigma_px, CV_32F);
 }
 
 StereoEngine::StereoEngine(const Options& options) {
@@ -142,11 +142,12 @@ const StereoResult& StereoEngine::compute(const cv::Mat& left_view, const cv::Ma
     if (s.result.rows_aligned) clock.lap("row alignment");
   }
   s.pipeline.run(views, maskView(mask), clock);
-  s.trust.estimate(s.pipeline.maps(), s.pipeline.largestCostSum(), s.pipeline.filterKernels(), s.threads);
+  const Trust::Maps estimated = s.trust.estimate(s.pipeline.maps(), s.pipeline.largestCostSum(),
+                                                 s.pipeline.filterKernels(), s.pipeline.scratch(), s.threads);
   if (s.options.mode == OutputMode::kSparse && s.options.validation.min_confidence > 0)
-    s.trust.reject(s.pipeline.maps(), s.options.validation.min_confidence, s.threads);
+    Trust::reject(s.pipeline.maps(), estimated, s.options.validation.min_confidence, s.threads);
   clock.lap("confidence");
-  s.publish();
+  s.publish(estimated);
   return s.result;
 }
 

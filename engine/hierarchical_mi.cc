@@ -4,6 +4,7 @@
 
 #include "core/parallel.h"
 #include "engine/input.h"
+#include "pyramid/scale.h"
 
 namespace pomona {
 namespace {
@@ -20,63 +21,67 @@ void fillRandomly(ImageView<float> map, const MatchOptions& o) {
     }
 }
 
-}  // namespace
-
-/// Nearest-neighbour enlargement of a sparse map, disparities rescaled; into guess_.
-void HierarchicalMi::enlarge(ImageView<const float> from, int width, int height) {
-  guess_.resize(width, height);
-  const float ratio = static_cast<float>(width) / static_cast<float>(from.width);
-  for (int y = 0; y < height; ++y) {
-    const float* source = from.row(y * from.height / height);
-    for (int x = 0; x < width; ++x) guess_.row(y)[x] = ratio * source[x * from.width / width];
+/// Nearest-neighbour enlargement of a sparse map, disparities rescaled.
+void enlarge(ImageView<const float> from, ImageView<float> to) {
+  const float ratio = static_cast<float>(to.width) / static_cast<float>(from.width);
+  for (int y = 0; y < to.height; ++y) {
+    const float* source = from.row(y * from.height / to.height);
+    for (int x = 0; x < to.width; ++x) to.row(y)[x] = ratio * source[x * from.width / to.width];
   }
 }
+
+}  // namespace
 
 std::span<const std::uint8_t> HierarchicalMi::table(const MatchInput& pair,
                                                     const SparseStage::Settings& settings) {
   const int width = pair.left.width, height = pair.left.height;
   const PyramidKernels& kernels = pyramidKernels(settings.isa);
+  Arena& scratch = *settings.scratch;
+  const Arena::Scope scope(scratch);
+  const auto guessOf = [&, whole = scratch.image<float>(width, height)](int w, int h) {
+    return ImageView<float>{whole.data, w, h, whole.stride};
+  };
+  ImageView<float> guess;
   bool started = false;
   for (std::size_t i = 0; i < kFactors.size(); ++i) {
     const int w = scaledLength(width, kFactors[i]), h = scaledLength(height, kFactors[i]);
     if (!started && std::min(w, h) < kSmallestSide) continue;
     Level& level = levels_[i];
-    const auto shrink = [&](ImageView<const std::uint8_t> in, Image<std::uint8_t>& out) {
-      areaDownscale(GuideView{in.data, in.width, in.height, 1, in.stride}, out, w, h, scale_, kernels,
+    const Arena::Scope level_scope(scratch);
+    const auto shrunk = [&](ImageView<const std::uint8_t> in) {
+      const auto out = scratch.image<std::uint8_t>(w, h);
+      areaDownscale(GuideView{in.data, in.width, in.height, 1, in.stride}, out, scratch, kernels,
                     settings.threads);
+      return out;
     };
-    shrink(pair.left, level.left);
-    shrink(pair.right, level.right);
+    const auto left = shrunk(pair.left), right = shrunk(pair.right);
 
     SparseStage::Settings at_level = settings;
     at_level.match = scaledOptions(settings.match, static_cast<double>(width) / w, w);
     at_level.mask = shrunkMask(settings.mask, w, h, level.mask);
-    const MatchInput small{level.left.view(),
-                           level.right.view(),
-                           {},
-                           {},
-                           {level.left.row(0), w, h, 1, level.left.view().stride}};
+    const MatchInput small{left, right, {}, {}, {left.data, w, h, 1, left.stride}};
     if (!started) {
-      guess_.resize(w, h);
-      fillRandomly(guess_.view(), at_level.match);
+      guess = guessOf(w, h);
+      fillRandomly(guess, at_level.match);
     }
     StageClock untimed;
     for (int k = 0; k < (started ? 1 : kIterationsAtStart); ++k) {
-      mi_->update(small.left, small.right, guess_.view());
+      mi_->update(small.left, small.right, guess);
       at_level.mutual_information = mi_->table();
       level.stage.run(small, at_level, untimed);
-      enlarge(level.stage.maps().disparity.view(), w, h);
+      enlarge(level.stage.maps().disparity.view(), guess);
     }
     started = true;
     const bool last = i + 1 == kFactors.size();
-    enlarge(level.stage.maps().disparity.view(), last ? width : scaledLength(width, kFactors[i + 1]),
-            last ? height : scaledLength(height, kFactors[i + 1]));
+    guess = guessOf(last ? width : scaledLength(width, kFactors[i + 1]),
+                    last ? height : scaledLength(height, kFactors[i + 1]));
+    enlarge(level.stage.maps().disparity.view(), guess);
   }
   if (!started) {  // the pair itself is tiny
-    guess_.resize(width, height);
-    fillRandomly(guess_.view(), settings.match);
+    guess = guessOf(width, height);
+    fillRandomly(guess, settings.match);
   }
-  mi_->update(pair.left, pair.right, guess_.view());
+  mi_->update(pair.left, pair.right, guess);
   return mi_->table();
 }
 

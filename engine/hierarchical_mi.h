@@ -7,7 +7,6 @@
 #include <span>
 
 #include "engine/sparse_stage.h"
-#include "pyramid/scale.h"
 #include "sgm/mutual_information.h"
 
 namespace pomona {
@@ -21,18 +20,14 @@ class HierarchicalMi {
 
  private:
   struct Level {
-    Image<std::uint8_t> left, right, mask;
+    Image<std::uint8_t> mask;
     SparseStage stage;
   };
   static constexpr std::array<int, 4> kFactors = {16, 8, 4, 2};
   static constexpr int kIterationsAtStart =
       3;  // "three iterations at 1/16 are enough" to forget the random start
 
-  void enlarge(ImageView<const float> from, int width, int height);
-
   std::array<Level, kFactors.size()> levels_;
-  Image<float> guess_;
-  ScaleScratch scale_;
   std::unique_ptr<MutualInformation> mi_;  // a megabyte of tables
 };
 

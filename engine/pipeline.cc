@@ -20,7 +20,7 @@ void Pipeline::run(const MatchInput& pair, ImageView<const std::uint8_t> mask, S
   if (matchesTwice()) matchAgain(pair, s, clock);
 }
 
-SparseStage::Settings Pipeline::settings(ImageView<const std::uint8_t> mask) const {
+SparseStage::Settings Pipeline::settings(ImageView<const std::uint8_t> mask) {
   SparseStage::Settings s;
   s.match = {options_.min_disparity, options_.num_disparities, options_.cost,
              options_.aggregation,   options_.winner,          options_.memory};
@@ -32,6 +32,7 @@ SparseStage::Settings Pipeline::settings(ImageView<const std::uint8_t> mask) con
   s.mask = mask;
   s.isa = isa_;
   s.threads = threads_;
+  s.scratch = &scratch_;
   return s;
 }
 
@@ -46,12 +47,12 @@ void Pipeline::match(const MatchInput& pair, const SparseStage::Settings& settin
 
 void Pipeline::noteBarePixels() {
   const MatchMaps& first = maps();
-  bare_.resize(first.margin.width(), first.margin.height());
+  bare_.resize(first.disparity.width(), first.disparity.height());
   const int largest = largestSum(options_);
   parallelStrips(threads_, bare_.height(), 32, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < bare_.width(); ++x)
-        bare_.row(y)[x] = nothingStandsOut(first.margin.row(y)[x], first.curvature.row(y)[x], largest);
+        bare_.row(y)[x] = nothingStandsOut(first.margin(y)[x], first.curvature(y)[x], largest);
   });
 }
 
@@ -61,7 +62,7 @@ void Pipeline::keepBarePixels() {
   parallelStrips(threads_, bare_.height(), 32, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < bare_.width(); ++x)
-        if (bare_.row(y)[x]) second.margin.row(y)[x] = second.curvature.row(y)[x] = 0;
+        if (bare_.row(y)[x]) second.margin(y)[x] = second.curvature(y)[x] = 0;
   });
 }
 

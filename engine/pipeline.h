@@ -8,6 +8,7 @@
 #include "engine/hierarchical_mi.h"
 #include "engine/search_bands.h"
 #include "engine/sparse_stage.h"
+#include "filters/kernels.h"
 #include "pomona/options.h"
 
 namespace pomona {
@@ -21,6 +22,7 @@ class Pipeline {
   void run(const MatchInput& pair, ImageView<const std::uint8_t> mask, StageClock& clock);
 
   MatchMaps& maps() { return sparse_.maps(); }
+  Arena& scratch() { return scratch_; }
   const FilterKernels& filterKernels() const { return pomona::filterKernels(isa_); }
   /// The largest sum of matching costs over the paths of the last match, whose margins maps() holds.
   int largestCostSum() const {
@@ -36,7 +38,7 @@ class Pipeline {
   bool isDense() const { return options_.mode == OutputMode::kDense; }
   bool isPaper() const { return isDense() && options_.completion.method == CompletionMethod::kPaper; }
   bool matchesTwice() const { return isDense() && !isPaper() && options_.second_pass.enabled; }
-  SparseStage::Settings settings(ImageView<const std::uint8_t> mask) const;
+  SparseStage::Settings settings(ImageView<const std::uint8_t> mask);
   void match(const MatchInput& pair, const SparseStage::Settings& settings, StageClock& clock);
   void noteBarePixels();
   void keepBarePixels();
@@ -52,6 +54,7 @@ class Pipeline {
   CompletionStage completion_;
   Image<float> first_map_;
   Image<std::uint8_t> bare_;  // whether nothing stood out in the first match
+  Arena scratch_;
 };
 
 }  // namespace pomona

@@ -44,7 +44,9 @@ int estimateNumDisparities(const cv::Mat& left, const cv::Mat& right, const Opti
   requireRangeFits(min_disparity, 1, left.cols);
 
   CoarseLook look;
-  const MatchMaps& maps = look.run(input.views(), min_disparity, left.cols, maskView(mask), isa, threads);
+  Arena scratch;
+  const MatchMaps& maps =
+      look.run(input.views(), min_disparity, left.cols, maskView(mask), isa, scratch, threads);
   const double ratio = look.ratio();
 
   const float widest = static_cast<float>(min_disparity + left.cols) / static_cast<float>(ratio);

@@ -1,17 +1,20 @@
 #include "engine/refinement.h"
 
+#include "filters/median.h"
+#include "filters/plane_refine.h"
+#include "filters/weighted_median.h"
+
 namespace pomona {
 
-void Refinement::run(Image<float>& disparity, GuideView guide, const CompletionOptions& options,
-                     const FilterKernels& kernels, int threads, StageClock& clock) {
+void refine(ImageView<float> disparity, GuideView guide, const CompletionOptions& options,
+            const FilterKernels& kernels, Arena& scratch, int threads, StageClock& clock) {
   if (options.weighted_median) {
-    weightedMedian(disparity.view(), guide, disparity.view(), weighted_median_, kernels, threads);
-    medianFilter(disparity.view(), disparity.view(), 5, kernels, median_, threads);
+    weightedMedian(disparity, guide, disparity, scratch, kernels, threads);
+    medianFilter(disparity, disparity, 5, kernels, scratch, threads);
     clock.lap("weighted median");
   }
   if (options.plane_refinement) {
-    refinePlanes(disparity.view(), guide, options.refine_radius_px, disparity.view(), weighted_median_.plane,
-                 kernels, threads);
+    refinePlanes(disparity, guide, options.refine_radius_px, disparity, scratch, kernels, threads);
     clock.lap("refinement");
   }
 }

@@ -94,7 +94,7 @@ std::span<const SearchBand> SearchBands::plan(const MatchInput& pair, const Spar
   whole_ = {min_disparity, min_disparity + disparities - 1};
   // The last disparity of the look stands for those up to kFactor - 1 above it.
   const MatchMaps& look = look_.run(pair, min_disparity, disparities - (CoarseLook::kFactor - 1),
-                                    settings.mask, settings.isa, settings.threads);
+                                    settings.mask, settings.isa, *settings.scratch, settings.threads);
   measureTiles(look);
   range_of_row_.assign(static_cast<std::size_t>(rows_), {});
   for (int row = 0; row < rows_; ++row)

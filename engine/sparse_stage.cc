@@ -5,6 +5,9 @@
 #include <limits>
 
 #include "core/parallel.h"
+#include "filters/left_right.h"
+#include "filters/median.h"
+#include "filters/speckle.h"
 #include "pomona/pixel_state.h"
 
 namespace pomona {
@@ -52,14 +55,15 @@ void SparseStage::matchBand(const MatchInput& pair, const Settings& s, const Sea
     const int y = begin + row;
     if (y >= band.y && y < band.y + band.height) finishRow(winners, y, options, kernels, maps_);
   };
-  matcher_.findWinners(cropped(pair, begin, end), options, s.mutual_information, kernels, finish, s.threads);
+  matcher_.findWinners(cropped(pair, begin, end), options, s.mutual_information, kernels, finish, *s.scratch,
+                       s.threads);
 }
 
 void SparseStage::run(const MatchInput& pair, const Settings& s, StageClock& clock,
                       std::span<const SearchBand> bands) {
   const ValidationOptions& v = s.validation;
   if (bands.empty()) {
-    matcher_.match(pair, s.match, s.mutual_information, sgmKernels(s.isa), maps_, s.threads);
+    matcher_.match(pair, s.match, s.mutual_information, sgmKernels(s.isa), maps_, *s.scratch, s.threads);
   } else {
     maps_.resize(pair.left.width, pair.left.height);
     for (const SearchBand& band : bands) matchBand(pair, s, band);
@@ -69,17 +73,17 @@ void SparseStage::run(const MatchInput& pair, const Settings& s, StageClock& clo
 
   if (v.left_right_px >= 0)
     leftRightCheck(maps_.disparity.view(), maps_.state.view(), maps_.right_disparity.view(), v.left_right_px,
-                   s.match.min_disparity, s.match.disparities, left_right_, filterKernels(s.isa), s.threads);
+                   s.match.min_disparity, s.match.disparities, *s.scratch, filterKernels(s.isa), s.threads);
   clock.lap("left-right check");
 
   if (v.speckle_size_px > 0)
-    removeSpeckles(maps_.disparity.view(), maps_.state.view(), v.speckle_size_px, v.speckle_step_px, speckle_,
-                   filterKernels(s.isa), s.threads);
+    removeSpeckles(maps_.disparity.view(), maps_.state.view(), v.speckle_size_px, v.speckle_step_px,
+                   *s.scratch, filterKernels(s.isa), s.threads);
   clock.lap("speckle");
 
   if (v.median_size > 0)
-    medianFilter(maps_.disparity.view(), maps_.disparity.view(), v.median_size, filterKernels(s.isa), median_,
-                 s.threads);
+    medianFilter(maps_.disparity.view(), maps_.disparity.view(), v.median_size, filterKernels(s.isa),
+                 *s.scratch, s.threads);
   clock.lap("median");
 }
 

@@ -4,12 +4,9 @@
 #include <cstdint>
 #include <span>
 
+#include "core/arena.h"
 #include "core/image.h"
 #include "engine/stage_clock.h"
-#include "filters/kernels.h"
-#include "filters/left_right.h"
-#include "filters/median.h"
-#include "filters/speckle.h"
 #include "sgm/matcher.h"
 
 namespace pomona {
@@ -33,6 +30,7 @@ class SparseStage {
     ImageView<const std::uint8_t> mask;                ///< empty, or 0 where a pixel is excluded
     Isa isa;
     int threads;
+    Arena* scratch = nullptr;  ///< for whatever a stage needs only while it runs
   };
 
   /// Afterwards maps() holds the validated map: NaN with a reason wherever the state is not measured.
@@ -49,9 +47,6 @@ class SparseStage {
 
   SgmMatcher matcher_;
   MatchMaps maps_;
-  LeftRightScratch left_right_;
-  SpeckleScratch speckle_;
-  MedianScratch median_;
 };
 
 /// The options for the same pair `ratio` times smaller (`width` columns wide): the range shrinks with it.

@@ -47,8 +47,8 @@ void trustCodes(const MatchMaps& maps, int largest_cost_sum, int y, int x_begin,
                 const FilterKernels& kernels, std::uint16_t* codes) {
   kernels.trustCodes(
       {{maps.disparity.row(y) + x_begin, maps.right_disparity.row(y), x_begin, count, maps.disparity.width()},
-       maps.margin.row(y) + x_begin,
-       maps.curvature.row(y) + x_begin,
+       maps.margin(y) + x_begin,
+       maps.curvature(y) + x_begin,
        12.0f / static_cast<float>(largest_cost_sum)},
       codes);
 }
@@ -64,33 +64,44 @@ Trust::Trust() {
     pairs_[TrustFeatures::kCodes + state] = trustInFilled(static_cast<PixelState>(state));
 }
 
-void Trust::estimate(const MatchMaps& maps, int largest_cost_sum, const FilterKernels& kernels, int threads) {
+Trust::Maps Trust::estimate(MatchMaps& maps, int largest_cost_sum, const FilterKernels& kernels,
+                            Arena& scratch, int threads) const {
   const int width = maps.disparity.width(), height = maps.disparity.height();
-  confidence.resize(width, height);
-  sigma_px.resize(width, height);
+  static_assert(sizeof(float) == 2 * sizeof(std::uint16_t));
+  const Maps trust{
+      {reinterpret_cast<float*>(maps.scores.row(0)), width, height, maps.scores.view().stride / 2},
+      maps.right_disparity.view()};
+  const Arena::Scope scope(scratch);
+  const auto first_codes = scratch.image<std::uint16_t>(width, height);  // a row for every strip
   parallelStrips(threads, height, 32, [&](int y_begin, int y_end) {
-    std::uint16_t codes[kMatchChunk];
-    for (int y = y_begin; y < y_end; ++y)
-      for (int begin = 0; begin < width; begin += kMatchChunk) {
-        const int count = std::min(kMatchChunk, width - begin);
-        trustCodes(maps, largest_cost_sum, y, begin, count, kernels, codes);
-        kernels.trustPairs(pairs_.data(), codes, maps.state.row(y) + begin,
-                           static_cast<std::uint8_t>(PixelState::kMeasured), count, confidence.row(y) + begin,
-                           sigma_px.row(y) + begin);
-      }
+    std::uint16_t* const codes = first_codes.row(y_begin);
+    const auto forEachChunk = [&](auto visit) {
+      for (int x = 0; x < width; x += kMatchChunk) visit(x, std::min(kMatchChunk, width - x));
+    };
+    for (int y = y_begin; y < y_end; ++y) {
+      forEachChunk(
+          [&](int x, int count) { trustCodes(maps, largest_cost_sum, y, x, count, kernels, codes + x); });
+      forEachChunk([&](int x, int count) {
+        kernels.trustPairs(pairs_.data(), codes + x, maps.state.row(y) + x,
+                           static_cast<std::uint8_t>(PixelState::kMeasured), count,
+                           trust.confidence.row(y) + x, trust.sigma_px.row(y) + x);
+      });
+    }
   });
+  return trust;
 }
 
-void Trust::reject(MatchMaps& maps, float min_confidence, int threads) {
+void Trust::reject(MatchMaps& maps, const Maps& trust, float min_confidence, int threads) {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-  parallelStrips(threads, confidence.height(), 32, [&](int begin, int end) {
+  parallelStrips(threads, trust.confidence.height, 32, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
-      for (int x = 0; x < confidence.width(); ++x) {
+      for (int x = 0; x < trust.confidence.width; ++x) {
         std::uint8_t& state = maps.state.row(y)[x];
-        if (!isMeasured(static_cast<PixelState>(state)) || confidence.row(y)[x] >= min_confidence) continue;
+        float& confidence = trust.confidence.at(y, x);
+        if (!isMeasured(static_cast<PixelState>(state)) || confidence >= min_confidence) continue;
         state = static_cast<std::uint8_t>(PixelState::kAmbiguous);
-        maps.disparity.row(y)[x] = sigma_px.row(y)[x] = kNan;
-        confidence.row(y)[x] = 0;
+        maps.disparity.row(y)[x] = trust.sigma_px.at(y, x) = kNan;
+        confidence = 0;
       }
   });
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/arena.h"
 #include "core/image.h"
 #include "filters/kernels.h"
 #include "sgm/matcher.h"
@@ -38,14 +39,18 @@ class Trust {
  public:
   Trust();
 
-  /// Of every pixel: confidence, the probability that |d - truth| <= 1 px, 0 where d is unknown; and
-  /// sigma_px, within which 68.3 % of pixels like it lie, NaN where d is unknown.
-  void estimate(const MatchMaps& maps, int largest_cost_sum, const FilterKernels& kernels, int threads);
+  /// Of every pixel.
+  struct Maps {
+    ImageView<float> confidence;  ///< the probability that |d - truth| <= 1 px, 0 where d is unknown
+    ImageView<float> sigma_px;    ///< within which 68.3 % of pixels like it lie, NaN where d is unknown
+  };
+  /// What the trust rests on is of no use afterwards, and the result takes its place: the confidence that of
+  /// the margins and curvatures, sigma that of the right disparities. The other maps stay as they are.
+  Maps estimate(MatchMaps& maps, int largest_cost_sum, const FilterKernels& kernels, Arena& scratch,
+                int threads) const;
 
   /// Makes measured pixels of a lower confidence kAmbiguous and unknown.
-  void reject(MatchMaps& maps, float min_confidence, int threads);
-
-  Image<float> confidence, sigma_px;
+  static void reject(MatchMaps& maps, const Maps& trust, float min_confidence, int threads);
 
  private:
   std::array<TrustPair, TrustFeatures::kCodes + 256> pairs_;  // of measured pixels, by code; others, by state

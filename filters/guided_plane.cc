@@ -22,12 +22,13 @@ void packColor(const std::uint8_t* channels, int width, std::uint32_t* color) {
 
 }  // namespace
 
-void GuidedPlane::set(ImageView<const float> disparity, GuideView guide, int radius, int threads) {
+GuidedPlane::GuidedPlane(ImageView<const float> disparity, GuideView guide, int radius, Arena& arena,
+                         int threads) {
   if (guide.channels != 1 && guide.channels != 3)
     throw std::invalid_argument("guide channels are " + std::to_string(guide.channels) + "; allowed: 1, 3");
   const int width = disparity.width, height = disparity.height;
-  disparity_.resize(width, height, radius, std::numeric_limits<float>::quiet_NaN());
-  color_.resize(width, height, radius, 0);
+  disparity_ = {arena, width, height, radius, std::numeric_limits<float>::quiet_NaN()};
+  color_ = {arena, width, height, radius, 0};
   const auto pack = guide.channels == 1 ? packGray : packColor;
   parallelStrips(threads, height, 16, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {

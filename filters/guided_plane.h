@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "core/arena.h"
 #include "core/image.h"
 #include "filters/kernels.h"
 #include "filters/padded_plane.h"
@@ -13,11 +14,11 @@ namespace pomona {
 /// highest byte 0; a gray guide counts as three equal channels.
 class GuidedPlane {
  public:
-  /// Copies a map and its guide, of the same size, and puts a border of `radius` pixels around them. Throws
-  /// std::invalid_argument if the guide has other than 1 or 3 channels.
-  void set(ImageView<const float> disparity, GuideView guide, int radius, int threads);
+  /// Copies a map and its guide, of the same size, into the current scope of `arena`, and puts a border of
+  /// `radius` pixels around them. Throws std::invalid_argument if the guide has other than 1 or 3 channels.
+  GuidedPlane(ImageView<const float> disparity, GuideView guide, int radius, Arena& arena, int threads);
 
-  GuidedRow row(int y) { return {disparity_.row(y), color_.row(y), disparity_.stride()}; }
+  GuidedRow row(int y) const { return {disparity_.row(y), color_.row(y), disparity_.stride()}; }
 
  private:
   PaddedImage<float> disparity_;

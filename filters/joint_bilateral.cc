@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/parallel.h"
+#include "filters/padded_plane.h"
 
 namespace pomona {
 namespace {
@@ -23,30 +24,30 @@ void requirePositive(const char* name, float value) {
 /// One frame's filter: the guide is read once, disparities once per pass.
 class Filter {
  public:
-  Filter(ImageView<const float> size, GuideView guide, const BilateralParameters& parameters,
-         BilateralScratch& scratch, const FilterKernels& kernels, int threads);
+  Filter(ImageView<const float> size, GuideView guide, const BilateralParameters& parameters, Arena& scratch,
+         const FilterKernels& kernels, int threads);
 
   /// Filters `in` into `out`, which may be the same.
   void run(ImageView<const float> in, ImageView<float> out, BilateralTarget target);
 
  private:
-  void readGuide(GuideView guide);
-  void readDisparity(ImageView<const float> in, int y);
+  void readGuide(GuideView guide, Arena& scratch);
+  void readDisparity(ImageView<const float> in, int y) const;
   bool anyKnownNear(int y, int block) const;
   void filterRow(ImageView<const float> in, ImageView<float> out, BilateralTarget target, int y) const;
 
-  BilateralScratch& scratch_;
   const FilterKernels& kernels_;
   int threads_;
   int width_, height_;
-  int blocks_;  ///< per row
+  int blocks_;                                 ///< per row
+  PaddedPlane disparity_, centre_, guide_[3];  // see BilateralWindow
+  ImageView<std::uint8_t> occupied_;           // 1 if a block of kBilateralBlock pixels has a known one
   BilateralWindow window_{};
 };
 
 Filter::Filter(ImageView<const float> size, GuideView guide, const BilateralParameters& parameters,
-               BilateralScratch& scratch, const FilterKernels& kernels, int threads)
-    : scratch_(scratch),
-      kernels_(kernels),
+               Arena& scratch, const FilterKernels& kernels, int threads)
+    : kernels_(kernels),
       threads_(threads),
       width_(size.width),
       height_(size.height),
@@ -60,43 +61,43 @@ Filter::Filter(ImageView<const float> size, GuideView guide, const BilateralPara
   const double sigma_space = parameters.sigma_space_px, sigma_range = parameters.sigma_range;
   const int radius = static_cast<int>(std::ceil(2 * sigma_space));
   const int side = 2 * radius + 1;
-  scratch.log_weight.resize(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
-  float* log_weight = scratch.log_weight.data();
+  float* log_weight = scratch.take<float>(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+  window_.log_weight = log_weight;
   for (int dy = -radius; dy <= radius; ++dy)
     for (int dx = -radius; dx <= radius; ++dx)
       *log_weight++ = static_cast<float>(-(dx * dx + dy * dy) * log2_e / (2 * sigma_space * sigma_space));
 
   window_.channels = guide.channels;
   window_.radius = radius;
-  window_.log_weight = scratch.log_weight.data();
   window_.range_scale = static_cast<float>(log2_e / (2 * sigma_range * sigma_range * guide.channels));
-  readGuide(guide);
+  readGuide(guide, scratch);
 }
 
-void Filter::readGuide(GuideView guide) {
+void Filter::readGuide(GuideView guide, Arena& scratch) {
   const int radius = window_.radius;
-  scratch_.disparity.resize(width_, height_, radius, 0.0f);
-  scratch_.centre.resize(width_, height_, radius, 0.0f);
-  scratch_.guide[0].resize(width_, height_, radius, std::numeric_limits<float>::infinity());
-  for (int c = 1; c < guide.channels; ++c) scratch_.guide[c].resize(width_, height_, radius, 0.0f);
-  scratch_.occupied.resize(blocks_, height_);
-  window_.stride = scratch_.disparity.stride();
+  const auto plane = [&](float border) { return PaddedPlane(scratch, width_, height_, radius, border); };
+  disparity_ = plane(0.0f);
+  centre_ = plane(0.0f);
+  guide_[0] = plane(std::numeric_limits<float>::infinity());
+  for (int c = 1; c < guide.channels; ++c) guide_[c] = plane(0.0f);
+  occupied_ = scratch.image<std::uint8_t>(blocks_, height_);
+  window_.stride = disparity_.stride();
   parallelStrips(threads_, height_, 16, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
       for (int c = 0; c < guide.channels; ++c) {
         const std::uint8_t* from = guide.row(y) + c;
-        float* to = (c == 0 ? scratch_.centre : scratch_.guide[c]).row(y);
+        float* to = (c == 0 ? centre_ : guide_[c]).row(y);
         for (int x = 0; x < width_; ++x) to[x] = static_cast<float>(from[x * guide.channels]);
       }
   });
 }
 
 /// Unknown pixels get an infinite guide difference, hence no weight: the kernel need not test for them.
-void Filter::readDisparity(ImageView<const float> in, int y) {
+void Filter::readDisparity(ImageView<const float> in, int y) const {
   const float* from = in.row(y);
-  const float* centre = scratch_.centre.row(y);
-  float* disparity = scratch_.disparity.row(y);
-  float* masked = scratch_.guide[0].row(y);
+  const float* centre = centre_.row(y);
+  float* disparity = disparity_.row(y);
+  float* masked = guide_[0].row(y);
   for (int block = 0; block < blocks_; ++block) {
     bool any_known = false;
     for (int x = block * kBlock; x < std::min(width_, (block + 1) * kBlock); ++x) {
@@ -105,7 +106,7 @@ void Filter::readDisparity(ImageView<const float> in, int y) {
       masked[x] = known ? centre[x] : std::numeric_limits<float>::infinity();
       any_known |= known;
     }
-    scratch_.occupied.row(y)[block] = any_known;
+    occupied_.row(y)[block] = any_known;
   }
 }
 
@@ -115,7 +116,7 @@ bool Filter::anyKnownNear(int y, int block) const {
   const int first = std::max(0, block - reach), last = std::min(blocks_ - 1, block + reach);
   const int y_last = std::min(height_ - 1, y + window_.radius);
   for (int v = std::max(0, y - window_.radius); v <= y_last; ++v) {
-    const std::uint8_t* occupied = scratch_.occupied.row(v);
+    const std::uint8_t* occupied = occupied_.row(v);
     if (std::any_of(occupied + first, occupied + last + 1, [](std::uint8_t o) { return o != 0; }))
       return true;
   }
@@ -131,9 +132,9 @@ void Filter::filterRow(ImageView<const float> in, ImageView<float> out, Bilatera
     alignas(64) float filtered[kBlock];
     if (std::any_of(from, from + count, is_target) && anyKnownNear(y, block)) {
       BilateralWindow window = window_;
-      window.disparity = scratch_.disparity.row(y) + x;
-      window.centre = scratch_.centre.row(y) + x;
-      for (int c = 0; c < window.channels; ++c) window.guide[c] = scratch_.guide[c].row(y) + x;
+      window.disparity = disparity_.row(y) + x;
+      window.centre = centre_.row(y) + x;
+      for (int c = 0; c < window.channels; ++c) window.guide[c] = guide_[c].row(y) + x;
       kernels_.jointBilateral(window, filtered);
       for (int i = 0; i < count; ++i) to[i] = is_target(from[i]) ? filtered[i] : from[i];
     } else if (to != from) {
@@ -161,14 +162,14 @@ int countHoles(ImageView<const float> map) {
 }  // namespace
 
 void jointBilateral(ImageView<const float> in, GuideView guide, const BilateralParameters& parameters,
-                    ImageView<float> out, BilateralScratch& scratch, const FilterKernels& kernels,
-                    int threads) {
+                    ImageView<float> out, Arena& scratch, const FilterKernels& kernels, int threads) {
+  const Arena::Scope scope(scratch);
   Filter(in, guide, parameters, scratch, kernels, threads).run(in, out, parameters.target);
 }
 
 void completeByBilateral(ImageView<const float> in, GuideView guide, const BilateralParameters& parameters,
-                         ImageView<float> out, BilateralScratch& scratch, const FilterKernels& kernels,
-                         int threads) {
+                         ImageView<float> out, Arena& scratch, const FilterKernels& kernels, int threads) {
+  const Arena::Scope scope(scratch);
   Filter filter(in, guide, parameters, scratch, kernels, threads);
   int before = countHoles(in);
   filter.run(in, out, parameters.target);

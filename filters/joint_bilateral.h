@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
+#include "core/arena.h"
 #include "core/image.h"
 #include "filters/kernels.h"
-#include "filters/padded_plane.h"
 
 namespace pomona {
 
@@ -18,12 +18,6 @@ struct BilateralParameters {
   float sigma_space_px = 10.0f;  ///< sigma_s, > 0
   float sigma_range = 30.0f;     ///< sigma_r in 8-bit grey levels, > 0
   BilateralTarget target = BilateralTarget::kEveryPixel;
-};
-
-struct BilateralScratch {
-  PaddedPlane disparity, centre, guide[3];  ///< see BilateralWindow
-  Image<std::uint8_t> occupied;             ///< 1 if a block of kBilateralBlock pixels has a known one
-  Buffer<float> log_weight;
 };
 
 /// The joint (cross) bilateral filter (Petschnigg et al. 2004, Eisemann & Durand 2004; Kopf et al. 2007 for
@@ -39,15 +33,13 @@ struct BilateralScratch {
 /// `in`, `guide` and `out` have the same size; `out` may be `in`. Disparities are finite or NaN. Throws
 /// std::invalid_argument if a sigma is not positive and finite, or the guide has other than 1 or 3 channels.
 void jointBilateral(ImageView<const float> in, GuideView guide, const BilateralParameters& parameters,
-                    ImageView<float> out, BilateralScratch& scratch, const FilterKernels& kernels,
-                    int threads);
+                    ImageView<float> out, Arena& scratch, const FilterKernels& kernels, int threads);
 
 /// The filter above, then again on the remaining holes alone, each time from the pixels known by then, until
 /// no hole is left or none can be filled. A map without any known pixel stays as it is. Holes deeper than the
 /// window cost a pass per window radius, but a pass computes only pixels with a known pixel in or near their
 /// window.
 void completeByBilateral(ImageView<const float> in, GuideView guide, const BilateralParameters& parameters,
-                         ImageView<float> out, BilateralScratch& scratch, const FilterKernels& kernels,
-                         int threads);
+                         ImageView<float> out, Arena& scratch, const FilterKernels& kernels, int threads);
 
 }  // namespace pomona

@@ -9,10 +9,11 @@ namespace pomona {
 
 void leftRightCheck(ImageView<float> disparity, ImageView<std::uint8_t> state,
                     ImageView<const float> right_disparity, float threshold_px, int min_disparity,
-                    int num_disparities, LeftRightScratch& scratch, const FilterKernels& kernels,
-                    int threads) {
+                    int num_disparities, Arena& scratch, const FilterKernels& kernels, int threads) {
   const int width = disparity.width;
-  scratch.marks.resize(kMarksPerPixel * (width + 2), disparity.height);
+  const Arena::Scope scope(scratch);
+  // Of left pixels whose epipolar line meets the right map; a row per strip.
+  const auto marks = scratch.image<std::uint8_t>(kMarksPerPixel * (width + 2), disparity.height);
   parallelStrips(threads, disparity.height, 8, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
       kernels.leftRight({.width = width,
@@ -27,7 +28,7 @@ void leftRightCheck(ImageView<float> disparity, ImageView<std::uint8_t> state,
                          .out_of_range = static_cast<std::uint8_t>(PixelState::kOutOfRange),
                          .mismatched = static_cast<std::uint8_t>(PixelState::kMismatched),
                          .occluded = static_cast<std::uint8_t>(PixelState::kOccluded),
-                         .marks = scratch.marks.row(begin)});
+                         .marks = marks.row(begin)});
   });
 }
 

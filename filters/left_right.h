@@ -3,15 +3,11 @@
 
 #include <cstdint>
 
+#include "core/arena.h"
 #include "core/image.h"
 #include "filters/kernels.h"
 
 namespace pomona {
-
-/// Kept from call to call.
-struct LeftRightScratch {
-  Image<std::uint8_t> marks;  // of left pixels whose epipolar line meets the right map; a row per strip
-};
 
 /// Rejects measured pixels whose match does not point back at them, and tells why (Hirschmueller 2008,
 /// sections 2.5 and 2.6.4).
@@ -30,7 +26,6 @@ struct LeftRightScratch {
 /// where unknown. All maps have the same size. threshold_px >= 0.
 void leftRightCheck(ImageView<float> disparity, ImageView<std::uint8_t> state,
                     ImageView<const float> right_disparity, float threshold_px, int min_disparity,
-                    int num_disparities, LeftRightScratch& scratch, const FilterKernels& kernels,
-                    int threads);
+                    int num_disparities, Arena& scratch, const FilterKernels& kernels, int threads);
 
 }  // namespace pomona

@@ -16,7 +16,7 @@ constexpr int kStripRows = 32, kMostRadius = 2;
 /// near at hand, and out of the way of what is written in their place.
 struct RowRing {
   ImageView<const float> in;
-  Image<float>& buffer;
+  ImageView<float> buffer;
   int first, count;  ///< its rows in `buffer`; behind them those after the strip's end
   int end;
 
@@ -26,7 +26,7 @@ struct RowRing {
   void read(int y) const {
     const bool inside = y >= 0 && y < in.height;
     const int width = inside ? in.width : 0;
-    float *begin = row(y) - kMostRadius, *row_end = begin + buffer.width();
+    float *begin = row(y) - kMostRadius, *row_end = begin + buffer.width;
     std::fill(begin, row(y), std::numeric_limits<float>::quiet_NaN());
     if (inside) std::copy_n(in.row(y), width, row(y));
     std::fill(row(y) + width, row_end, std::numeric_limits<float>::quiet_NaN());
@@ -36,15 +36,17 @@ struct RowRing {
 }  // namespace
 
 void medianFilter(ImageView<const float> in, ImageView<float> out, int size, const FilterKernels& kernels,
-                  MedianScratch& scratch, int threads) {
+                  Arena& scratch, int threads) {
   if (size != 3 && size != 5)
     throw std::invalid_argument("median size is " + std::to_string(size) + "; allowed: 3, 5");
   if (in.empty()) return;
 
   const int strips = (in.height + kStripRows - 1) / kStripRows, radius = size / 2, kept = size + radius;
-  scratch.rows.resize(in.width + kMostRadius + kMedianOverrun, strips * kept);
+  const Arena::Scope scope(scratch);
+  // Of each strip, those around the current one and after its end.
+  const auto buffer = scratch.image<float>(in.width + kMostRadius + kMedianOverrun, strips * kept);
   const auto ringOf = [&](int strip) {
-    return RowRing{in, scratch.rows, strip * kept, size, std::min(in.height, (strip + 1) * kStripRows)};
+    return RowRing{in, buffer, strip * kept, size, std::min(in.height, (strip + 1) * kStripRows)};
   };
   parallelFor(threads, strips, [&](int strip) {  // what other strips may write
     const RowRing ring = ringOf(strip);

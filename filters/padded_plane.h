@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "core/arena.h"
 #include "core/image.h"
 
 namespace pomona {
@@ -15,13 +16,15 @@ class PaddedImage {
  public:
   static constexpr int kOverrun = 15;
 
-  /// Sets the border and the overrun to `border`; the image itself is left unspecified.
-  void resize(int width, int height, int radius, T border) {
-    radius_ = radius;
-    image_.resize(width + 2 * radius + kOverrun, height + 2 * radius);
+  PaddedImage() = default;
+
+  /// Takes its memory from the current scope of `arena`. Sets the border and the overrun to `border`; the
+  /// image itself is left unspecified.
+  PaddedImage(Arena& arena, int width, int height, int radius, T border)
+      : image_(arena.image<T>(width + 2 * radius + kOverrun, height + 2 * radius)), radius_(radius) {
     for (int y = -radius; y < height + radius; ++y) {
       T* begin = row(y) - radius;
-      T* end = begin + image_.width();
+      T* end = begin + image_.width;
       if (y >= 0 && y < height) {
         std::fill(begin, row(y), border);
         begin = row(y) + width;
@@ -29,11 +32,11 @@ class PaddedImage {
       std::fill(begin, end, border);
     }
   }
-  T* row(int y) { return image_.row(y + radius_) + radius_; }
-  std::ptrdiff_t stride() const { return image_.view().stride; }
+  T* row(int y) const { return image_.row(y + radius_) + radius_; }
+  std::ptrdiff_t stride() const { return image_.stride; }
 
  private:
-  Image<T> image_;
+  ImageView<T> image_;
   int radius_ = 0;
 };
 

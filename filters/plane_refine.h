@@ -1,8 +1,8 @@
 // Local plane fit: takes the sub-pixel noise out of a disparity map, and keeps its slants and edges.
 #pragma once
 
+#include "core/arena.h"
 #include "core/image.h"
-#include "filters/guided_plane.h"
 #include "filters/kernels.h"
 
 namespace pomona {
@@ -22,6 +22,6 @@ namespace pomona {
 /// finite or NaN. Throws std::invalid_argument for another radius, or if the guide has other than 1 or 3
 /// channels.
 void refinePlanes(ImageView<const float> in, GuideView guide, int radius, ImageView<float> out,
-                  GuidedPlane& scratch, const FilterKernels& kernels, int threads);
+                  Arena& scratch, const FilterKernels& kernels, int threads);
 
 }  // namespace pomona

@@ -20,17 +20,19 @@ int sizeOfComponent(const SpeckleRun* runs, int i) {
 }  // namespace
 
 void removeSpeckles(ImageView<float> disparity, ImageView<std::uint8_t> state, int min_size_px,
-                    float max_step_px, SpeckleScratch& scratch, const FilterKernels& kernels, int threads) {
+                    float max_step_px, Arena& scratch, const FilterKernels& kernels, int threads) {
   const int width = disparity.width, height = disparity.height;
   if (disparity.empty() || min_size_px <= 1) return;
-  scratch.runs.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  scratch.rows.resize(static_cast<std::size_t>(height));
-  scratch.breaks.resize((width + 63) / 64, height);
-  SpeckleRun* runs = scratch.runs.data();
-  SpeckleScratch::RowRuns* rows = scratch.rows.data();
-  const auto rowAt = [&](int y) {
-    return SpeckleRow{disparity.row(y), scratch.breaks.row(y), rows[y].first};
+  const Arena::Scope scope(scratch);
+  struct RowRuns {
+    int first, last;  // runs[first] up to, not including, runs[last]
   };
+  RowRuns* const rows = scratch.take<RowRuns>(static_cast<std::size_t>(height));
+  const auto breaks = scratch.image<std::uint64_t>((width + 63) / 64, height);
+  // Room for a run per pixel.
+  SpeckleRun* const runs =
+      scratch.take<SpeckleRun>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  const auto rowAt = [&](int y) { return SpeckleRow{disparity.row(y), breaks.row(y), rows[y].first}; };
   const auto uniteWithAbove = [&](int y) {
     kernels.uniteRuns(rowAt(y - 1), rowAt(y), width, max_step_px, min_size_px, runs);
   };
@@ -40,8 +42,8 @@ void removeSpeckles(ImageView<float> disparity, ImageView<std::uint8_t> state, i
     int next = y_begin * width;
     for (int y = y_begin; y < y_end; ++y) {
       const int first = next;
-      next += kernels.findRuns(disparity.row(y), width, max_step_px, min_size_px, scratch.breaks.row(y),
-                               runs + first);
+      next +=
+          kernels.findRuns(disparity.row(y), width, max_step_px, min_size_px, breaks.row(y), runs + first);
       rows[y] = {first, next};
       if (y > y_begin) uniteWithAbove(y);
     }

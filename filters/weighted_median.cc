@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/parallel.h"
+#include "filters/guided_plane.h"
 
 namespace pomona {
 namespace {
@@ -41,16 +42,17 @@ int chosenColumns(const std::uint8_t* near_jump, int begin, int end, std::int32_
 
 }  // namespace
 
-void weightedMedian(ImageView<const float> in, GuideView guide, ImageView<float> out,
-                    WeightedMedianScratch& scratch, const FilterKernels& kernels, int threads) {
+void weightedMedian(ImageView<const float> in, GuideView guide, ImageView<float> out, Arena& scratch,
+                    const FilterKernels& kernels, int threads) {
   const int width = in.width;
-  scratch.plane.set(in, guide, MedianWindow::kRadius, threads);
-  const MedianWindow window = makeWindow(scratch.plane.row(0).stride);
-  scratch.near_jump.resize(width, in.height);
+  const Arena::Scope scope(scratch);
+  const GuidedPlane plane(in, guide, MedianWindow::kRadius, scratch, threads);
+  const MedianWindow window = makeWindow(plane.row(0).stride);
+  const auto jumps = scratch.image<std::uint8_t>(width, in.height);
   parallelStrips(threads, in.height, 4, [&](int y_begin, int y_end) {
     for (int y = y_begin; y < y_end; ++y) {
-      const GuidedRow row = scratch.plane.row(y);
-      std::uint8_t* near_jump = scratch.near_jump.row(y);
+      const GuidedRow row = plane.row(y);
+      std::uint8_t* near_jump = jumps.row(y);
       std::copy_n(row.disparity, width, out.row(y));
       kernels.nearJumps(row, width, kJump_px, near_jump);
       std::int32_t columns[kSegment];

@@ -3,16 +3,11 @@
 
 #include <cstdint>
 
+#include "core/arena.h"
 #include "core/image.h"
-#include "filters/guided_plane.h"
 #include "filters/kernels.h"
 
 namespace pomona {
-
-struct WeightedMedianScratch {
-  GuidedPlane plane;
-  Image<std::uint8_t> near_jump;
-};
 
 /// The weighted median (Ma et al. 2013, "Constant time weighted median filtering for stereo matching and
 /// beyond") at pixels near a jump; elsewhere out = in.
@@ -30,7 +25,7 @@ struct WeightedMedianScratch {
 ///
 /// `in`, `guide` and `out` have the same size; `out` may be `in`. Disparities are finite or NaN. Throws
 /// std::invalid_argument if the guide has other than 1 or 3 channels.
-void weightedMedian(ImageView<const float> in, GuideView guide, ImageView<float> out,
-                    WeightedMedianScratch& scratch, const FilterKernels& kernels, int threads);
+void weightedMedian(ImageView<const float> in, GuideView guide, ImageView<float> out, Arena& scratch,
+                    const FilterKernels& kernels, int threads);
 
 }  // namespace pomona

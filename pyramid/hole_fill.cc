@@ -8,6 +8,7 @@
 
 #include "core/parallel.h"
 #include "pomona/pixel_state.h"
+#include "pyramid/hole_rays.h"
 #include "pyramid/holes.h"
 
 namespace pomona {
@@ -44,10 +45,11 @@ std::uint8_t filledState(std::uint8_t state) {
 class HoleFiller {
  public:
   HoleFiller(const HoleFillInput& in, ImageView<float> disparity, ImageView<std::uint8_t> state,
-             HoleFillScratch& scratch, const PyramidKernels& kernels, int threads)
-      : in_(in), disparity_(disparity), state_(state), rays_(scratch.rays), kernels_(kernels) {
-    packGuide(scratch, threads);
-    tabulateWeights(scratch);
+             const HoleRays& rays, ImageView<std::uint32_t> colors, Arena& arena,
+             const PyramidKernels& kernels, int threads)
+      : in_(in), disparity_(disparity), state_(state), rays_(rays), colors_(colors), kernels_(kernels) {
+    packGuide(threads);
+    tabulateWeights(arena);
   }
 
   int batches() const { return (rays_.count() + kHoleBatch - 1) / kHoleBatch; }
@@ -89,23 +91,22 @@ class HoleFiller {
   }
 
  private:
-  void packGuide(HoleFillScratch& scratch, int threads) {
-    scratch.colors.resize(in_.guide.width, in_.guide.height);
-    colors_ = scratch.colors.view();
+  void packGuide(int threads) {
     parallelStrips(threads, in_.guide.height, kMinLinesPerStrip, [&](int begin, int end) {
       for (int y = begin; y < end; ++y)
-        kernels_.packColors(in_.guide.row(y), in_.guide.channels, in_.guide.width, scratch.colors.row(y));
+        kernels_.packColors(in_.guide.row(y), in_.guide.channels, in_.guide.width, colors_.row(y));
     });
   }
 
-  void tabulateWeights(HoleFillScratch& scratch) {
+  void tabulateWeights(Arena& arena) {
     const int channels = in_.guide.channels;
-    scratch.color_weight.resize(3 * 255 + 1);
-    for (int i = 0; i <= 3 * 255; ++i) scratch.color_weight[i] = integerWeight(i / (channels * kColorScale));
+    std::uint32_t* const color_weight = arena.take<std::uint32_t>(3 * 255 + 1);
+    for (int i = 0; i <= 3 * 255; ++i) color_weight[i] = integerWeight(i / (channels * kColorScale));
     const int longest = std::max(disparity_.width, disparity_.height);  // in steps
-    scratch.distance_weight.resize(kRays.size() * static_cast<std::size_t>(longest));
+    std::uint32_t* const distance_weight =
+        arena.take<std::uint32_t>(kRays.size() * static_cast<std::size_t>(longest));
     for (std::size_t k = 0; k < kRays.size(); ++k) {
-      std::uint32_t* table = scratch.distance_weight.data() + k * static_cast<std::size_t>(longest);
+      std::uint32_t* table = distance_weight + k * static_cast<std::size_t>(longest);
       const double step_px = std::sqrt(static_cast<double>(kRays[k].squaredStep()));
       for (int i = 0; i < longest && i <= in_.search_radius_px; ++i)
         table[i] = integerWeight(i * step_px / kDistanceScale_px);
@@ -117,7 +118,7 @@ class HoleFiller {
                      .color_stride = static_cast<std::int32_t>(colors_.stride),
                      .width = disparity_.width,
                      .visibility_tolerance_px = kVisibilityTolerance_px,
-                     .color_weight = scratch.color_weight.data(),
+                     .color_weight = color_weight,
                      .distance_weight = table,
                      .dx = kRays[k].dx,
                      .dy = kRays[k].dy};
@@ -151,7 +152,7 @@ class HoleFiller {
   ImageView<float> disparity_;
   ImageView<std::uint8_t> state_;
   const HoleRays& rays_;
-  ImageView<const std::uint32_t> colors_;
+  ImageView<std::uint32_t> colors_;
   const PyramidKernels& kernels_;
   std::array<CandidateSources, kRays.size()> sources_;
 };
@@ -217,11 +218,15 @@ void fillDistant(ImageView<float> disparity, ImageView<std::uint8_t> state, floa
 }  // namespace
 
 void fillHoles(const HoleFillInput& in, ImageView<float> disparity, ImageView<std::uint8_t> state,
-               HoleFillScratch& scratch, const PyramidKernels& kernels, int threads) {
-  scratch.rays.findHoles(disparity, state, threads);
-  if (scratch.rays.count() == 0) return;
-  scratch.rays.follow(in.search_radius_px, kernels, threads);
-  HoleFiller filler(in, disparity, state, scratch, kernels, threads);
+               Arena& scratch, const PyramidKernels& kernels, int threads) {
+  const Arena::Scope scope(scratch);
+  // Before the rays, whose room for all there could be is hardly touched.
+  const auto colors = scratch.image<std::uint32_t>(in.guide.width, in.guide.height);
+  HoleRays rays;
+  rays.findHoles(disparity, state, scratch, threads);
+  if (rays.count() == 0) return;
+  rays.follow(in.search_radius_px, kernels, threads);
+  HoleFiller filler(in, disparity, state, rays, colors, scratch, kernels, threads);
   const auto all = [&](int count, int min_per_strip, auto&& fill) {
     std::atomic<bool> complete{true};
     parallelStrips(threads, count, min_per_strip, [&](int begin, int end) {
@@ -233,7 +238,7 @@ void fillHoles(const HoleFillInput& in, ImageView<float> disparity, ImageView<st
   if (all(filler.batches(), kMinBatchesPerStrip, [&](int batch) { return filler.fillBatch(batch); })) return;
   const ImageView<const float> coarse = in.coarse();
   const auto from_coarse = [&](int hole) { return filler.fillFromCoarse(hole, coarse); };
-  if (!coarse.empty() && all(scratch.rays.count(), kMinBatchesPerStrip * kHoleBatch, from_coarse)) return;
+  if (!coarse.empty() && all(rays.count(), kMinBatchesPerStrip * kHoleBatch, from_coarse)) return;
   fillDistant(disparity, state, in.fallback_disparity, threads);
 }
 

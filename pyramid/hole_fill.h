@@ -3,9 +3,9 @@
 
 #include <cstdint>
 
+#include "core/arena.h"
 #include "core/image.h"
 #include "core/parallel.h"
-#include "pyramid/hole_rays.h"
 #include "pyramid/kernels.h"
 
 namespace pomona {
@@ -19,13 +19,6 @@ struct HoleFillInput {
   FunctionRef<ImageView<const float>()> coarse;
   int search_radius_px = 200;    ///< length of a search ray, >= 0
   float fallback_disparity = 0;  ///< where the whole map offers nothing
-};
-
-/// What fillHoles() keeps from one call to the next.
-struct HoleFillScratch {
-  HoleRays rays;
-  Image<std::uint32_t> colors;
-  Buffer<std::uint32_t> color_weight, distance_weight;
 };
 
 /// Gives every pixel that is not measured, filled or kMasked a disparity and a filled state, in place.
@@ -50,6 +43,6 @@ struct HoleFillScratch {
 /// sums are exact and the result depends on nothing but the input. The rays of all pixels are followed
 /// together, one step per row and ray: time grows with the number of pixels, not with the size of the holes.
 void fillHoles(const HoleFillInput& in, ImageView<float> disparity, ImageView<std::uint8_t> state,
-               HoleFillScratch& scratch, const PyramidKernels& kernels, int threads);
+               Arena& scratch, const PyramidKernels& kernels, int threads);
 
 }  // namespace pomona

@@ -28,14 +28,17 @@ void advanceAlongRow(int dx, const std::uint16_t* open, int width, std::uint16_t
 
 }  // namespace
 
-void HoleRays::findHoles(ImageView<const float> disparity, ImageView<const std::uint8_t> state, int threads) {
+void HoleRays::findHoles(ImageView<const float> disparity, ImageView<const std::uint8_t> state, Arena& arena,
+                         int threads) {
   const int width = disparity.width, height = disparity.height;
+  row_begin_ = arena.take<int>(static_cast<std::size_t>(height) + 1);
+  open_ = arena.image<std::uint16_t>(width, height);
+  ring_rows_ = arena.image<std::uint16_t>(width + 2 * kPadding, kRingRows * static_cast<int>(kRays.size()));
   // As many as there can be: the number of holes changes from frame to frame, the memory must not.
-  holes_.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  steps_.resize(kRays.size() * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  row_begin_.resize(static_cast<std::size_t>(height) + 1);
-  open_.resize(width, height);
-  int* row_begin = row_begin_.data();
+  const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  holes_ = arena.take<Pixel>(pixels);
+  steps_ = arena.take<std::uint16_t>(kRays.size() * pixels);
+  int* const row_begin = row_begin_;
   parallelStrips(threads, height, kMinRowsPerStrip, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
       const float* d = disparity.row(y);
@@ -54,7 +57,7 @@ void HoleRays::findHoles(ImageView<const float> disparity, ImageView<const std::
   count_ = row_begin[height];
   parallelStrips(threads, height, kMinRowsPerStrip, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
-      Pixel* next = holes_.data() + row_begin[y];
+      Pixel* next = holes_ + row_begin[y];
       if (row_begin[y] == row_begin[y + 1]) continue;
       for (int x = 0; x < width; ++x)
         if (isHole(disparity.at(y, x), state.at(y, x)))
@@ -64,7 +67,6 @@ void HoleRays::findHoles(ImageView<const float> disparity, ImageView<const std::
 }
 
 void HoleRays::follow(int radius_px, const PyramidKernels& kernels, int threads) {
-  ring_rows_.resize(open_.width() + 2 * kPadding, kRingRows * static_cast<int>(kRays.size()));
   parallelFor(threads, static_cast<int>(kRays.size()),
               [&](int ray) { followRay(static_cast<std::size_t>(ray), radius_px, kernels); });
 }
@@ -72,10 +74,10 @@ void HoleRays::follow(int radius_px, const PyramidKernels& kernels, int threads)
 // Row by row, in the order that has the next pixel of each ray done before the pixel itself.
 void HoleRays::followRay(std::size_t index, int radius_px, const PyramidKernels& kernels) {
   const Ray ray = kRays[index];
-  const int width = open_.width(), height = open_.height();
+  const int width = open_.width, height = open_.height;
   const double longest = std::sqrt(static_cast<double>(radius_px) * radius_px / ray.squaredStep());
   const int max_steps = static_cast<int>(std::min(longest, kNoSource - 1.0));
-  std::uint16_t* steps = steps_.data() + index * static_cast<std::size_t>(count_);
+  std::uint16_t* steps = steps_ + index * static_cast<std::size_t>(count_);
   const auto ring = [&](int i) {
     return ring_rows_.row(static_cast<int>(index) * kRingRows + i % kRingRows) + kPadding;
   };
@@ -87,9 +89,8 @@ void HoleRays::followRay(std::size_t index, int radius_px, const PyramidKernels&
       advanceAlongRow(ray.dx, open_.row(y), width, row);
     else
       kernels.advanceRays(ring(i + kRingRows - std::abs(ray.dy)) + ray.dx, open_.row(y), width, row);
-    for (int h = row_begin_[static_cast<std::size_t>(y)]; h < row_begin_[static_cast<std::size_t>(y) + 1];
-         ++h) {
-      const std::uint16_t s = row[holes_[static_cast<std::size_t>(h)].x];
+    for (int h = row_begin_[y]; h < row_begin_[y + 1]; ++h) {
+      const std::uint16_t s = row[holes_[h].x];
       steps[h] = s <= max_steps ? s : kNoSource;
     }
   }

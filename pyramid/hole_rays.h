@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/arena.h"
 #include "core/image.h"
 #include "pyramid/kernels.h"
 
@@ -39,8 +40,10 @@ class HoleRays {
   static constexpr std::uint16_t kNoSource = 0xffff;
 
   /// Lists the holes, in row-major order: pixels that are missing but not masked, or measured but NaN.
-  /// Sources are the other measured pixels, and those of state kFilledPlane.
-  void findHoles(ImageView<const float> disparity, ImageView<const std::uint8_t> state, int threads);
+  /// Sources are the other measured pixels, and those of state kFilledPlane. Everything lies in the current
+  /// scope of `arena`, to which the following calls add nothing.
+  void findHoles(ImageView<const float> disparity, ImageView<const std::uint8_t> state, Arena& arena,
+                 int threads);
 
   /// Follows all rays from all holes found, up to the longest number of steps within `radius_px`.
   /// Works one step per row and ray over the whole image, so its time does not depend on how large the holes
@@ -48,21 +51,21 @@ class HoleRays {
   void follow(int radius_px, const PyramidKernels& kernels, int threads);
 
   int count() const { return count_; }
-  const Pixel* holes() const { return holes_.data(); }
+  const Pixel* holes() const { return holes_; }
   /// Steps from each hole along kRays[ray] to its first source, or kNoSource.
   const std::uint16_t* steps(std::size_t ray) const {
-    return steps_.data() + ray * static_cast<std::size_t>(count_);
+    return steps_ + ray * static_cast<std::size_t>(count_);
   }
 
  private:
   void followRay(std::size_t index, int radius_px, const PyramidKernels& kernels);
 
   int count_ = 0;
-  Buffer<int> row_begin_;                       // index of each row's first hole
-  Buffer<Pixel, Pages::kSmall> holes_;          // room for all pixels
-  Buffer<std::uint16_t, Pages::kSmall> steps_;  // one plane of count_ values per ray
-  Image<std::uint16_t> open_;                   // 0 at sources, 0xffff elsewhere
-  Image<std::uint16_t> ring_rows_;              // the last three rows of every ray's sweep
+  int* row_begin_ = nullptr;            // index of each row's first hole
+  Pixel* holes_ = nullptr;              // room for all pixels
+  std::uint16_t* steps_ = nullptr;      // one plane of count_ values per ray
+  ImageView<std::uint16_t> open_;       // 0 at sources, 0xffff elsewhere
+  ImageView<std::uint16_t> ring_rows_;  // the last three rows of every ray's sweep
 };
 
 }  // namespace pomona

@@ -17,9 +17,10 @@ void copyRows(ImageView<const float> in, ImageView<float> out, int threads) {
 
 }  // namespace
 
-void reduce(ImageView<const float> in, ImageView<float> out, Image<float>& narrowed,
-            const PyramidKernels& kernels, int threads) {
-  narrowed.resize(out.width, in.height);
+void reduce(ImageView<const float> in, ImageView<float> out, Arena& scratch, const PyramidKernels& kernels,
+            int threads) {
+  const Arena::Scope scope(scratch);
+  const auto narrowed = scratch.image<float>(out.width, in.height);
   parallelStrips(threads, in.height, kMinRowsPerStrip, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) kernels.reduceRow(in.row(y), in.width, narrowed.row(y));
   });
@@ -32,9 +33,10 @@ void reduce(ImageView<const float> in, ImageView<float> out, Image<float>& narro
   });
 }
 
-void addExpanded(ImageView<const float> in, float gain, ImageView<float> inout, Image<float>& widened,
+void addExpanded(ImageView<const float> in, float gain, ImageView<float> inout, Arena& scratch,
                  const PyramidKernels& kernels, int threads) {
-  widened.resize(inout.width, in.height);
+  const Arena::Scope scope(scratch);
+  const auto widened = scratch.image<float>(inout.width, in.height);
   parallelStrips(threads, in.height, kMinRowsPerStrip, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) kernels.expandRow(in.row(y), inout.width, widened.row(y));
   });
@@ -51,27 +53,29 @@ void addExpanded(ImageView<const float> in, float gain, ImageView<float> inout, 
 }
 
 void GaussianPyramid::build(ImageView<const float> map, int levels, const PyramidKernels& kernels,
-                            int threads) {
-  images_[0].resize(map.width, map.height);
+                            Arena& arena, int threads) {
+  images_[0] = arena.image<float>(map.width, map.height);
   copyRows(map, level(0), threads);
   for (levels_ = 1; levels_ < std::min(levels, kMaxPyramidLevels); ++levels_) {
     const ImageView<float> finer = level(levels_ - 1);
     if (std::min(finer.width, finer.height) == 1) return;
-    images_[static_cast<std::size_t>(levels_)].resize((finer.width + 1) / 2, (finer.height + 1) / 2);
-    reduce(finer, level(levels_), resampled_, kernels, threads);
+    images_[static_cast<std::size_t>(levels_)] =
+        arena.image<float>((finer.width + 1) / 2, (finer.height + 1) / 2);
+    reduce(finer, level(levels_), arena, kernels, threads);
   }
 }
 
 void LaplacianPyramid::build(ImageView<const float> map, int levels, const PyramidKernels& kernels,
-                             int threads) {
-  bands_.build(map, levels, kernels, threads);
+                             Arena& arena, int threads) {
+  bands_.build(map, levels, kernels, arena, threads);
   for (int i = 0; i + 1 < bands_.levels(); ++i)
-    addExpanded(level(i + 1), -1.0f, level(i), bands_.resampled_, kernels, threads);
+    addExpanded(level(i + 1), -1.0f, level(i), arena, kernels, threads);
 }
 
-void LaplacianPyramid::collapse(ImageView<float> out, const PyramidKernels& kernels, int threads) {
+void LaplacianPyramid::collapse(ImageView<float> out, const PyramidKernels& kernels, Arena& scratch,
+                                int threads) {
   for (int i = bands_.levels() - 2; i >= 0; --i)
-    addExpanded(level(i + 1), 1.0f, level(i), bands_.resampled_, kernels, threads);
+    addExpanded(level(i + 1), 1.0f, level(i), scratch, kernels, threads);
   copyRows(level(0), out, threads);
 }
 

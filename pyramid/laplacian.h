@@ -7,6 +7,7 @@
 
 #include <array>
 
+#include "core/arena.h"
 #include "core/image.h"
 #include "pyramid/kernels.h"
 
@@ -15,30 +16,27 @@ namespace pomona {
 constexpr int kMaxPyramidLevels = 16;
 
 /// REDUCE: low-pass, then every second sample, from n to (n + 1) / 2 on both axes, which is the size `out`
-/// has. `narrowed` is scratch.
-void reduce(ImageView<const float> in, ImageView<float> out, Image<float>& narrowed,
-            const PyramidKernels& kernels, int threads);
+/// has.
+void reduce(ImageView<const float> in, ImageView<float> out, Arena& scratch, const PyramidKernels& kernels,
+            int threads);
 
-/// inout += gain * EXPAND(in): `in` has (n + 1) / 2 samples where `inout` has n, on both axes. `widened` is
-/// scratch.
-void addExpanded(ImageView<const float> in, float gain, ImageView<float> inout, Image<float>& widened,
+/// inout += gain * EXPAND(in): `in` has (n + 1) / 2 samples where `inout` has n, on both axes.
+void addExpanded(ImageView<const float> in, float gain, ImageView<float> inout, Arena& scratch,
                  const PyramidKernels& kernels, int threads);
 
-/// Level 0 is the map itself, each further one the REDUCE of the one before. Memory is kept from frame to
-/// frame.
+/// Level 0 is the map itself, each further one the REDUCE of the one before.
 class GaussianPyramid {
  public:
-  /// Builds up to `levels` levels (1..kMaxPyramidLevels), fewer if a side reaches 1 before.
-  void build(ImageView<const float> map, int levels, const PyramidKernels& kernels, int threads);
+  /// Builds up to `levels` levels (1..kMaxPyramidLevels), fewer if a side reaches 1 before, in the current
+  /// scope of `arena`.
+  void build(ImageView<const float> map, int levels, const PyramidKernels& kernels, Arena& arena,
+             int threads);
 
   int levels() const { return levels_; }
-  ImageView<float> level(int i) { return images_[static_cast<std::size_t>(i)].view(); }
-  ImageView<const float> level(int i) const { return images_[static_cast<std::size_t>(i)].view(); }
+  ImageView<float> level(int i) const { return images_[static_cast<std::size_t>(i)]; }
 
  private:
-  friend class LaplacianPyramid;
-  std::array<Image<float>, kMaxPyramidLevels> images_;
-  Image<float> resampled_;
+  std::array<ImageView<float>, kMaxPyramidLevels> images_;
   int levels_ = 0;
 };
 
@@ -46,14 +44,14 @@ class GaussianPyramid {
 class LaplacianPyramid {
  public:
   /// As GaussianPyramid::build().
-  void build(ImageView<const float> map, int levels, const PyramidKernels& kernels, int threads);
+  void build(ImageView<const float> map, int levels, const PyramidKernels& kernels, Arena& arena,
+             int threads);
   /// The map whose pyramid this is, up to float rounding, into `out`, which has the size of level 0.
   /// Uses up the pyramid: levels hold Gaussian levels afterwards.
-  void collapse(ImageView<float> out, const PyramidKernels& kernels, int threads);
+  void collapse(ImageView<float> out, const PyramidKernels& kernels, Arena& scratch, int threads);
 
   int levels() const { return bands_.levels(); }
-  ImageView<float> level(int i) { return bands_.level(i); }
-  ImageView<const float> level(int i) const { return bands_.level(i); }
+  ImageView<float> level(int i) const { return bands_.level(i); }
 
  private:
   GaussianPyramid bands_;

@@ -3,11 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
 #include <optional>
 
 #include "core/parallel.h"
 #include "pyramid/holes.h"
 #include "pyramid/plane_fit.h"
+#include "pyramid/scale.h"
+#include "pyramid/segment_cells.h"
+#include "pyramid/segment_match.h"
+#include "pyramid/segmentation.h"
+#include "pyramid/view_border.h"
 
 namespace pomona {
 namespace {
@@ -53,7 +60,7 @@ class PlaneFiller {
   }
 
   // The holes of a row beyond the border that share a segment with the source there.
-  void continueLevel(int y, const Buffer<std::int32_t>& labels) {
+  void continueLevel(int y, const std::int32_t* labels) {
     for (int x = 0; x < disparity_.width; ++x) {
       const ViewBorder::Source* source = border_.before(y, x);
       if (source != nullptr && isHole(disparity_.at(y, x), state_.at(y, x)) &&
@@ -159,34 +166,57 @@ class PlaneFiller {
   const PyramidKernels& kernels_;
 };
 
+struct Segments {
+  std::int32_t* labels;
+  int count;
+};
+using Divisions = std::array<Segments, kDivisions.size()>;
+
+Divisions divide(const PlaneFillInput& in, int columns, int rows, Arena& arena, const PyramidKernels& kernels,
+                 int threads) {
+  const std::size_t pixels = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  Divisions divisions;
+  for (Segments& s : divisions) s.labels = arena.take<std::int32_t>(pixels);
+
+  const Arena::Scope scope(arena);
+  GuideView guide = in.guide;
+  if (in.scale > 1) {
+    const auto reduced = arena.image<std::uint8_t>(columns * guide.channels, rows);
+    areaDownscale(in.guide, reduced, arena, kernels, threads);
+    guide = {reduced.data, columns, rows, guide.channels, reduced.stride};
+  }
+  SortedEdges edges;
+  edges.build(guide, kernels, arena, threads);
+  const SegmentationScratch scratch[] = {SegmentationScratch(edges, arena),
+                                         SegmentationScratch(edges, arena)};
+  static_assert(std::size(scratch) == kDivisions.size());
+  parallelFor(threads, static_cast<int>(kDivisions.size()), [&](int i) {
+    const float k = kDivisions[static_cast<std::size_t>(i)].k / static_cast<float>(in.scale);
+    const int min_size = kMinSegment_px / (in.scale * in.scale);
+    Segments& s = divisions[static_cast<std::size_t>(i)];
+    s.count = segment(edges, {k, min_size}, s.labels, scratch[i]);
+  });
+  return divisions;
+}
+
 }  // namespace
 
 void fillFromPlanes(const PlaneFillInput& in, ImageView<float> disparity, ImageView<std::uint8_t> state,
-                    PlaneFillScratch& scratch, const PyramidKernels& kernels, int threads) {
+                    Arena& scratch, const PyramidKernels& kernels, int threads) {
   const int columns = scaledLength(disparity.width, in.scale);
   const int rows = scaledLength(disparity.height, in.scale);
-  GuideView guide = in.guide;
-  if (in.scale > 1) {
-    areaDownscale(in.guide, scratch.reduced_guide, columns, rows, scratch.scale, kernels, threads);
-    const ImageView<const std::uint8_t> reduced = scratch.reduced_guide.view();
-    guide = {reduced.data, columns, rows, guide.channels, reduced.stride};
-  }
-  SegmentCells& cells = scratch.cells;
-  cells.count(disparity, state, columns, rows, kernels, threads);
-  scratch.edges.build(guide, kernels, threads);
-  parallelFor(threads, static_cast<int>(kDivisions.size()), [&](int i) {
-    PlaneFillScratch::Segments& s = scratch.divisions[static_cast<std::size_t>(i)];
-    const float k = kDivisions[static_cast<std::size_t>(i)].k / static_cast<float>(in.scale);
-    const int min_size = kMinSegment_px / (in.scale * in.scale);
-    s.count = segment(scratch.edges, {k, min_size}, s.labels, s.segmentation);
-  });
-
-  scratch.border.find(disparity, state, threads);
-  scratch.match.prepare(in.left, in.right, static_cast<int>(in.min_disparity),
-                        static_cast<int>(in.max_disparity - in.min_disparity) + 1, kernels, threads);
-  PlaneFiller filler(in, cells, scratch.border, scratch.match, disparity, state, kernels);
+  const Arena::Scope scope(scratch);
+  SegmentCells cells;
+  cells.count(disparity, state, columns, rows, kernels, scratch, threads);
+  const Divisions divisions = divide(in, columns, rows, scratch, kernels, threads);
+  ViewBorder border;
+  border.find(disparity, state, scratch, threads);
+  SegmentMatch match;
+  match.prepare(in.left, in.right, static_cast<int>(in.min_disparity),
+                static_cast<int>(in.max_disparity - in.min_disparity) + 1, kernels, scratch, threads);
+  PlaneFiller filler(in, cells, border, match, disparity, state, kernels);
   for (std::size_t i = 0; i < kDivisions.size(); ++i) {
-    const PlaneFillScratch::Segments& s = scratch.divisions[i];
+    const Segments& s = divisions[i];
     cells.group(s.labels, s.count);
     parallelStrips(threads, s.count, kMinSegmentsPerStrip, [&](int begin, int end) {
       for (int j = begin; j < end; ++j)
@@ -195,7 +225,7 @@ void fillFromPlanes(const PlaneFillInput& in, ImageView<float> disparity, ImageV
     });
   }
   parallelStrips(threads, disparity.height, kMinRowsPerStrip, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) filler.continueLevel(y, scratch.divisions.back().labels);
+    for (int y = begin; y < end; ++y) filler.continueLevel(y, divisions.back().labels);
   });
 }
 

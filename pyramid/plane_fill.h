@@ -1,16 +1,11 @@
 // Holes filled with the planes that the measured pixels of their colour segments lie on.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
+#include "core/arena.h"
 #include "core/image.h"
 #include "pyramid/kernels.h"
-#include "pyramid/scale.h"
-#include "pyramid/segment_cells.h"
-#include "pyramid/segment_match.h"
-#include "pyramid/segmentation.h"
-#include "pyramid/view_border.h"
 
 namespace pomona {
 
@@ -22,22 +17,6 @@ struct PlaneFillInput {
   int scale = 4;            ///< segments are found in the image reduced so many times; 1, 2 or 4
   float min_disparity = 0;  ///< a plane fills with disparities from here ...
   float max_disparity = 0;  ///< ... up to and including here
-};
-
-/// What fillFromPlanes() keeps from one call to the next.
-struct PlaneFillScratch {
-  struct Segments {
-    SegmentationScratch segmentation;
-    Buffer<std::int32_t> labels;
-    int count;
-  };
-  ScaleScratch scale;
-  Image<std::uint8_t> reduced_guide;
-  SortedEdges edges;
-  std::array<Segments, 2> divisions;
-  SegmentCells cells;
-  ViewBorder border;
-  SegmentMatch match;
 };
 
 /// Fills holes (see holes.h) of `disparity` in place and gives them state kFilledPlane. Other pixels keep
@@ -60,6 +39,6 @@ struct PlaneFillScratch {
 /// 1 px or more off the source that they lie beyond; what both divisions leave of them takes that source's
 /// disparity, if it belongs to the same coarse segment. The result does not depend on the number of threads.
 void fillFromPlanes(const PlaneFillInput& in, ImageView<float> disparity, ImageView<std::uint8_t> state,
-                    PlaneFillScratch& scratch, const PyramidKernels& kernels, int threads);
+                    Arena& scratch, const PyramidKernels& kernels, int threads);
 
 }  // namespace pomona

@@ -12,6 +12,13 @@ namespace {
 
 constexpr int kMinRowsPerStrip = 8;
 
+// The pixels of the input that one pixel of the output covers, in exact arithmetic: the first one with weight
+// `first_weight`, the last of `count` with `last_weight`, those between with the ratio's denominator.
+struct AreaSpan {
+  int first, count;
+  std::uint32_t first_weight, last_weight;
+};
+
 // One axis of area averaging. In units of 1 / out of an input pixel, input pixels are `out` long and output
 // pixels `in` long, so that every overlap is an integer; dividing by the common divisor keeps the integers
 // small.
@@ -62,23 +69,24 @@ void averageAlongRow(const std::uint32_t* sums, const AreaAxis& axis, const Area
 }
 
 template <typename T, typename Accumulate>
-void averageAreas(const Interleaved<T>& in, Image<T>& out, int out_w, int out_h, ScaleScratch& scratch,
-                  Accumulate accumulate, int threads) {
+void averageAreas(const Interleaved<T>& in, ImageView<T> out, Arena& scratch, Accumulate accumulate,
+                  int threads) {
+  const int out_w = out.width / in.channels, out_h = out.height;
   const AreaAxis across(in.width, out_w), down(in.height, out_h);
   const int row_values = in.width * in.channels;
-  out.resize(out_w * in.channels, out_h);
-  scratch.column_sums.resize(row_values, out_h);
-  scratch.spans.resize(static_cast<std::size_t>(out_w));
-  for (int x = 0; x < out_w; ++x) scratch.spans[static_cast<std::size_t>(x)] = across.span(x);
+  const Arena::Scope scope(scratch);
+  const auto column_sums = scratch.image<std::uint32_t>(row_values, out_h);
+  AreaSpan* const spans = scratch.take<AreaSpan>(static_cast<std::size_t>(out_w));
+  for (int x = 0; x < out_w; ++x) spans[x] = across.span(x);
   const std::uint64_t area = static_cast<std::uint64_t>(across.in) * static_cast<std::uint64_t>(down.in);
   parallelStrips(threads, out_h, kMinRowsPerStrip, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
-      std::uint32_t* sums = scratch.column_sums.row(y);
+      std::uint32_t* sums = column_sums.row(y);
       std::fill_n(sums, row_values, 0u);
       const AreaSpan span = down.span(y);
       for (int i = 0; i < span.count; ++i)
         accumulate(in.data + (span.first + i) * in.stride, down.weight(span, i), row_values, sums);
-      averageAlongRow(sums, across, scratch.spans.data(), out_w, in.channels, area, out.row(y));
+      averageAlongRow(sums, across, spans, out_w, in.channels, area, out.row(y));
     }
   });
 }
@@ -90,11 +98,17 @@ double keys(double s) {
   return s < 2 ? ((-0.5 * s + 2.5) * s - 4) * s + 2 : 0;
 }
 
+// The four samples and weights behind each output sample of a cubic convolution; tap k of sample x is at
+// k n + x.
+struct CubicTaps {
+  std::int32_t* index;
+  float* weight;
+};
+
 // Output centre x lies at (x + 1/2) in / out - 1/2 of the input: computed exactly, in units of 1 / (2 out).
-void prepareTaps(int in, int out, CubicTaps& taps) {
+CubicTaps makeTaps(int in, int out, Arena& arena) {
   const std::size_t n = static_cast<std::size_t>(out);
-  taps.index.resize(4 * n);
-  taps.weight.resize(4 * n);
+  const CubicTaps taps{arena.take<std::int32_t>(4 * n), arena.take<float>(4 * n)};
   for (std::size_t x = 0; x < n; ++x) {
     const std::int64_t unit = 2 * std::int64_t{out};
     const std::int64_t position = (2 * static_cast<std::int64_t>(x) + 1) * in - out;
@@ -106,6 +120,7 @@ void prepareTaps(int in, int out, CubicTaps& taps) {
       taps.weight[tap] = static_cast<float>(keys(fraction - (k - 1)));
     }
   }
+  return taps;
 }
 
 float meanOfKnownTaps(ImageView<const float> in, const std::int32_t row[4], const float row_weight[4],
@@ -128,31 +143,30 @@ int scaledLength(int length, int factor) {
   return std::max(1, (length + factor - 1) / factor);
 }
 
-void areaDownscale(GuideView in, Image<std::uint8_t>& out, int out_w, int out_h, ScaleScratch& scratch,
-                   const PyramidKernels& kernels, int threads) {
-  averageAreas<std::uint8_t>({in.data, in.width, in.height, in.channels, in.stride}, out, out_w, out_h,
-                             scratch, kernels.accumulate8, threads);
+void areaDownscale(GuideView in, ImageView<std::uint8_t> out, Arena& scratch, const PyramidKernels& kernels,
+                   int threads) {
+  averageAreas<std::uint8_t>({in.data, in.width, in.height, in.channels, in.stride}, out, scratch,
+                             kernels.accumulate8, threads);
 }
 
-void areaDownscale(ImageView<const std::uint16_t> in, Image<std::uint16_t>& out, int out_w, int out_h,
-                   ScaleScratch& scratch, const PyramidKernels& kernels, int threads) {
-  averageAreas<std::uint16_t>({in.data, in.width, in.height, 1, in.stride}, out, out_w, out_h, scratch,
+void areaDownscale(ImageView<const std::uint16_t> in, ImageView<std::uint16_t> out, Arena& scratch,
+                   const PyramidKernels& kernels, int threads) {
+  averageAreas<std::uint16_t>({in.data, in.width, in.height, 1, in.stride}, out, scratch,
                               kernels.accumulate16, threads);
 }
 
-void bicubicUpscale(ImageView<const float> in, ImageView<float> out, ScaleScratch& scratch,
+void bicubicUpscale(ImageView<const float> in, ImageView<float> out, Arena& scratch,
                     const PyramidKernels& kernels, int threads) {
-  prepareTaps(in.width, out.width, scratch.columns);
-  prepareTaps(in.height, out.height, scratch.rows);
-  scratch.widened.resize(out.width, in.height);
-  scratch.row_has_nan.resize(static_cast<std::size_t>(in.height));
+  const Arena::Scope scope(scratch);
+  const CubicTaps columns = makeTaps(in.width, out.width, scratch);
+  const CubicTaps taps = makeTaps(in.height, out.height, scratch);
+  const auto widened = scratch.image<float>(out.width, in.height);
+  bool* const row_has_nan = scratch.take<bool>(static_cast<std::size_t>(in.height));
   parallelStrips(threads, in.height, kMinRowsPerStrip, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
       const float* row = in.row(y);
-      kernels.cubicRow(row, scratch.columns.index.data(), scratch.columns.weight.data(), out.width,
-                       scratch.widened.row(y));
-      scratch.row_has_nan[static_cast<std::size_t>(y)] =
-          std::any_of(row, row + in.width, [](float v) { return std::isnan(v); });
+      kernels.cubicRow(row, columns.index, columns.weight, out.width, widened.row(y));
+      row_has_nan[y] = std::any_of(row, row + in.width, [](float v) { return std::isnan(v); });
     }
   });
   parallelStrips(threads, out.height, kMinRowsPerStrip, [&](int begin, int end) {
@@ -164,17 +178,17 @@ void bicubicUpscale(ImageView<const float> in, ImageView<float> out, ScaleScratc
       for (int k = 0; k < 4; ++k) {
         const std::size_t tap =
             static_cast<std::size_t>(k) * static_cast<std::size_t>(out.height) + static_cast<std::size_t>(y);
-        index[k] = scratch.rows.index[tap];
-        weight[k] = scratch.rows.weight[tap];
-        rows[k] = scratch.widened.row(index[k]);
-        has_nan |= scratch.row_has_nan[static_cast<std::size_t>(index[k])] != 0;
+        index[k] = taps.index[tap];
+        weight[k] = taps.weight[tap];
+        rows[k] = widened.row(index[k]);
+        has_nan |= row_has_nan[index[k]];
       }
       float* o = out.row(y);
       kernels.cubicColumn(rows, weight, out.width, o);
       if (!has_nan) continue;
       const std::size_t n = static_cast<std::size_t>(out.width);
       for (std::size_t x = 0; x < n; ++x)  // a single absent tap has made the sum NaN
-        if (std::isnan(o[x])) o[x] = meanOfKnownTaps(in, index, weight, scratch.columns, n, x);
+        if (std::isnan(o[x])) o[x] = meanOfKnownTaps(in, index, weight, columns, n, x);
     }
   });
 }

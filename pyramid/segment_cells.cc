@@ -11,33 +11,36 @@ namespace {
 constexpr int kMinRowsPerStrip = 16;
 
 // The first of `pixels` that belongs to each of `cells`.
-void cut(int pixels, int cells, Buffer<int>& begin) {
-  begin.resize(static_cast<std::size_t>(cells) + 1);
+int* cut(int pixels, int cells, Arena& arena) {
+  int* const begin = arena.take<int>(static_cast<std::size_t>(cells) + 1);
   for (int i = 0; i <= cells; ++i)
-    begin[static_cast<std::size_t>(i)] = static_cast<int>((std::int64_t{i} * pixels + cells - 1) / cells);
+    begin[i] = static_cast<int>((std::int64_t{i} * pixels + cells - 1) / cells);
+  return begin;
 }
 
 }  // namespace
 
 void SegmentCells::count(ImageView<const float> disparity, ImageView<const std::uint8_t> state, int columns,
-                         int rows, const PyramidKernels& kernels, int threads) {
+                         int rows, const PyramidKernels& kernels, Arena& arena, int threads) {
   columns_ = columns;
   rows_ = rows;
-  cut(disparity.width, columns, column_begin_);
-  cut(disparity.height, rows, row_begin_);
+  column_begin_ = cut(disparity.width, columns, arena);
+  row_begin_ = cut(disparity.height, rows, arena);
   const std::size_t cells = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
-  sources_.resize(cells);
-  holes_.resize(cells);
-  column_sums_.resize(disparity.width, rows);
+  sources_ = arena.take<std::uint8_t>(cells);
+  holes_ = arena.take<std::uint8_t>(cells);
+  cells_ = arena.take<Cell>(cells);
+  segment_begin_ = arena.take<int>(cells + 2);  // enough for any number of segments
+  const Arena::Scope scope(arena);
+  const auto column_sums = arena.image<std::uint16_t>(disparity.width, rows);
   parallelStrips(threads, rows, kMinRowsPerStrip, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) countRow(i, disparity, state, kernels);
+    for (int i = begin; i < end; ++i) countRow(i, disparity, state, kernels, column_sums.row(i));
   });
 }
 
 void SegmentCells::countRow(int row, ImageView<const float> disparity, ImageView<const std::uint8_t> state,
-                            const PyramidKernels& kernels) {
+                            const PyramidKernels& kernels, std::uint16_t* sums) {
   constexpr auto code = [](PixelState s) { return static_cast<std::uint8_t>(s); };
-  std::uint16_t* sums = column_sums_.row(row);
   std::fill_n(sums, disparity.width, std::uint16_t{0});
   for (int y = row_begin_[row]; y < row_begin_[row + 1]; ++y)
     kernels.countSourcesAndHoles(disparity.row(y), state.row(y), code(PixelState::kMeasured),
@@ -52,12 +55,10 @@ void SegmentCells::countRow(int row, ImageView<const float> disparity, ImageView
   }
 }
 
-void SegmentCells::group(const Buffer<std::int32_t>& labels, int segments) {
+void SegmentCells::group(const std::int32_t* labels, int segments) {
   const std::size_t cells = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
-  cells_.resize(cells);
-  segment_begin_.resize(cells + 2);  // enough for any number of segments
-  int* next = segment_begin_.data() + 1;
-  std::fill_n(segment_begin_.data(), segments + 2, 0);
+  int* next = segment_begin_ + 1;
+  std::fill_n(segment_begin_, segments + 2, 0);
   for (std::size_t i = 0; i < cells; ++i) ++next[labels[i] + 1];
   for (int i = 0; i < segments; ++i) next[i + 1] += next[i];
   std::size_t i = 0;

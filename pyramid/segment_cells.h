@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/arena.h"
 #include "core/image.h"
 #include "pyramid/kernels.h"
 
@@ -11,7 +12,7 @@ namespace pomona {
 
 /// The image in blocks, one cell for each pixel of the reduced image: pixel x belongs to column
 /// floor(x columns / width), and rows likewise. Cells know how many sources and holes (see holes.h) they
-/// hold, and can be listed by segment. Memory is kept from frame to frame.
+/// hold, and can be listed by segment.
 class SegmentCells {
  public:
   struct Cell {
@@ -21,14 +22,15 @@ class SegmentCells {
     int x, y;
   };
 
-  /// A cell has at most 16 pixels; there are at most 65535 columns and rows.
+  /// A cell has at most 16 pixels; there are at most 65535 columns and rows. Everything lies in the current
+  /// scope of `arena`, group()'s part as well.
   void count(ImageView<const float> disparity, ImageView<const std::uint8_t> state, int columns, int rows,
-             const PyramidKernels& kernels, int threads);
+             const PyramidKernels& kernels, Arena& arena, int threads);
   /// Lists the cells by label; `labels` holds values below `segments`, row by row.
-  void group(const Buffer<std::int32_t>& labels, int segments);
+  void group(const std::int32_t* labels, int segments);
 
   std::span<const Cell> segment(int i) const {
-    return {cells_.data() + segment_begin_[i], cells_.data() + segment_begin_[i + 1]};
+    return {cells_ + segment_begin_[i], cells_ + segment_begin_[i + 1]};
   }
   int columns() const { return columns_; }
   int rows() const { return rows_; }
@@ -54,7 +56,7 @@ class SegmentCells {
   }
   template <typename F>
   void forEachPixel(Cell c, F visit) const {
-    const int *x_range = column_begin_.data() + c.x, *y_range = row_begin_.data() + c.y;
+    const int *x_range = column_begin_ + c.x, *y_range = row_begin_ + c.y;
     for (int y = y_range[0]; y < y_range[1]; ++y)
       for (int x = x_range[0]; x < x_range[1]; ++x) visit(Pixel{x, y});
   }
@@ -64,14 +66,13 @@ class SegmentCells {
     return static_cast<std::size_t>(c.y) * static_cast<std::size_t>(columns_) + c.x;
   }
   void countRow(int row, ImageView<const float> disparity, ImageView<const std::uint8_t> state,
-                const PyramidKernels& kernels);
+                const PyramidKernels& kernels, std::uint16_t* sums);
 
   int columns_ = 0, rows_ = 0;
-  Buffer<int> column_begin_, row_begin_;  // the first pixel of each, and of what would follow
-  Buffer<std::uint8_t> sources_, holes_;  // in each cell
-  Image<std::uint16_t> column_sums_;
-  Buffer<Cell> cells_;  // segment after segment
-  Buffer<int> segment_begin_;
+  int *column_begin_ = nullptr, *row_begin_ = nullptr;  // the first pixel of each, and of what would follow
+  std::uint8_t *sources_ = nullptr, *holes_ = nullptr;  // in each cell
+  Cell* cells_ = nullptr;                               // segment after segment
+  int* segment_begin_ = nullptr;
 };
 
 }  // namespace pomona

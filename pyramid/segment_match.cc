@@ -30,7 +30,8 @@ void residualsOf(ImageView<const std::uint8_t> in, int y, const PyramidKernels& 
 }  // namespace
 
 void SegmentMatch::prepare(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,
-                           int min_disparity, int disparities, const PyramidKernels& kernels, int threads) {
+                           int min_disparity, int disparities, const PyramidKernels& kernels, Arena& arena,
+                           int threads) {
   kernels_ = &kernels;
   min_disparity_ = min_disparity;
   disparities_ = left.empty() ? 0 : disparities;
@@ -38,8 +39,8 @@ void SegmentMatch::prepare(ImageView<const std::uint8_t> left, ImageView<const s
   const int width = left.width, last = min_disparity + disparities - 1;
   const int before = std::max(0, last), behind = std::max(0, -min_disparity);
   offset_ = before - last;
-  left_.resize(width, left.height);
-  right_.resize(before + width + behind, left.height);
+  left_ = arena.image<std::int8_t>(width, left.height);
+  right_ = arena.image<std::int8_t>(before + width + behind, left.height);
   parallelStrips(threads, left.height, kMinRowsPerStrip, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
       residualsOf(left, y, kernels, left_.row(y));
@@ -54,7 +55,7 @@ void SegmentMatch::prepare(ImageView<const std::uint8_t> left, ImageView<const s
 template <typename F>
 void SegmentMatch::forEachInnerCell(const Segment& segment, F visit) const {
   const int columns = segment.cells.columns(), rows = segment.cells.rows();
-  const int reach = (kEdge_px * columns + left_.width() - 1) / left_.width();
+  const int reach = (kEdge_px * columns + left_.width - 1) / left_.width;
   const auto label = [&](int x, int y) {
     return segment.labels[static_cast<std::size_t>(std::clamp(y, 0, rows - 1)) * columns +
                           std::clamp(x, 0, columns - 1)];

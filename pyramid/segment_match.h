@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "core/arena.h"
 #include "core/image.h"
 #include "pyramid/kernels.h"
 #include "pyramid/plane_fit.h"
@@ -17,7 +18,7 @@ namespace pomona {
 struct Segment {
   std::span<const SegmentCells::Cell> members;
   const SegmentCells& cells;
-  const Buffer<std::int32_t>& labels;  ///< the segment of every cell, row by row
+  const std::int32_t* labels;  ///< the segment of every cell, row by row
 
   SegmentCells::Pixel origin() const { return cells.firstPixel(members[0]); }
 };
@@ -38,9 +39,10 @@ class SegmentMatch {
   };
 
   /// The views are gray and of equal size, or empty: no level stands out then. Disparities are searched from
-  /// `min_disparity` up, at most kMostDisparities. Memory is kept from frame to frame.
+  /// `min_disparity` up, at most kMostDisparities. What is made of them lies in the
+  /// current scope of `arena`.
   void prepare(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right, int min_disparity,
-               int disparities, const PyramidKernels& kernels, int threads);
+               int disparities, const PyramidKernels& kernels, Arena& arena, int threads);
 
   /// The disparity that stands out, if one does: by 4 deviations above the mean of the scores more than 2 px
   /// away, and by 1.5 above the best of them.
@@ -62,9 +64,10 @@ class SegmentMatch {
 
   const PyramidKernels* kernels_ = nullptr;
   int min_disparity_ = 0, disparities_ = 0;
-  int offset_ = 0;            // see rightOf()
-  Image<std::int8_t> left_;   // differences from the local mean, in 1/25 gray values; 0 if they are too large
-  Image<std::int8_t> right_;  // the same, with zeros for the columns outside
+  int offset_ = 0;  // see rightOf()
+  ImageView<std::int8_t>
+      left_;  // differences from the local mean, in 1/25 gray values; 0 if they are too large
+  ImageView<std::int8_t> right_;  // the same, with zeros for the columns outside
 };
 
 }  // namespace pomona

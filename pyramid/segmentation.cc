@@ -20,11 +20,8 @@ class Forest {
  public:
   using Node = SegmentationScratch::Node;
 
-  Forest(int pixels, float k, SegmentationScratch& scratch) : k_(k) {
-    scratch.nodes.resize(static_cast<std::size_t>(pixels));
-    scratch.size.resize(static_cast<std::size_t>(pixels));
-    nodes_ = scratch.nodes.data();
-    size_ = scratch.size.data();
+  Forest(int pixels, float k, const SegmentationScratch& scratch)
+      : k_(k), nodes_(scratch.nodes), size_(scratch.size) {
     for (int i = 0; i < pixels; ++i) nodes_[i] = {i, k};
     std::fill_n(size_, pixels, 1);
   }
@@ -67,11 +64,11 @@ void SortedEdges::forEachEdge(F visit) const {
     }
 }
 
-void SortedEdges::build(GuideView image, const PyramidKernels& kernels, int threads) {
+void SortedEdges::build(GuideView image, const PyramidKernels& kernels, Arena& arena, int threads) {
   width_ = image.width;
   height_ = image.height;
   for (std::size_t i = 0; i < kSteps.size(); ++i) offset_[i] = kSteps[i].dy * width_ + kSteps[i].dx;
-  weights_.resize(width_, kDirections * height_);
+  weights_ = arena.image<std::uint8_t>(width_, kDirections * height_);
   const auto difference = image.channels == 3 ? kernels.largestDifference3 : kernels.difference1;
   parallelStrips(threads, height_, kMinRowsPerStrip, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
@@ -91,17 +88,24 @@ void SortedEdges::build(GuideView image, const PyramidKernels& kernels, int thre
     begin_[w + 1] = begin_[w] + next[w];
     next[w] = begin_[w];
   }
-  edges_.resize(count());
+  edges_ = arena.take<std::uint32_t>(count());
   forEachEdge([&](std::uint8_t weight, std::uint32_t edge) { edges_[next[weight]++] = edge; });
 }
 
-int segment(const SortedEdges& edges, const SegmentationParameters& parameters, Buffer<std::int32_t>& labels,
-            SegmentationScratch& scratch) {
+SegmentationScratch::SegmentationScratch(const SortedEdges& edges, Arena& arena) {
+  const std::size_t pixels =
+      static_cast<std::size_t>(edges.width()) * static_cast<std::size_t>(edges.height());
+  nodes = arena.take<Node>(pixels);
+  size = arena.take<int>(pixels);
+  between = arena.take<std::uint32_t>(edges.count());
+}
+
+int segment(const SortedEdges& edges, const SegmentationParameters& parameters, std::int32_t* labels,
+            const SegmentationScratch& scratch) {
   const int pixels = edges.width() * edges.height();
   Forest forest(pixels, parameters.k, scratch);
 
   // Edges that join nothing are kept: small components need no others.
-  scratch.between.resize(edges.count());
   std::size_t between = 0;
   for (int weight = 0; weight < SortedEdges::kWeights; ++weight)
     for (const std::uint32_t edge : edges.ofWeight(weight)) {
@@ -112,19 +116,18 @@ int segment(const SortedEdges& edges, const SegmentationParameters& parameters, 
       else
         scratch.between[between++] = edge;
     }
-  for (const std::uint32_t edge : std::span(scratch.between.data(), between)) {
+  for (const std::uint32_t edge : std::span(scratch.between, between)) {
     const int a = forest.root(SortedEdges::firstEnd(edge)), b = forest.root(edges.otherEnd(edge));
     if (a != b && forest.isOneSmaller(a, b, parameters.min_size_px)) forest.join(a, b, 0);
   }
 
   // The label at a component's root is -1 until the component is met.
-  labels.resize(static_cast<std::size_t>(pixels));
-  std::fill_n(labels.data(), pixels, -1);
+  std::fill_n(labels, pixels, -1);
   int segments = 0;
   for (int i = 0; i < pixels; ++i) {
-    std::int32_t& label = labels[static_cast<std::size_t>(forest.root(i))];
+    std::int32_t& label = labels[forest.root(i)];
     if (label < 0) label = segments++;
-    labels[static_cast<std::size_t>(i)] = label;
+    labels[i] = label;
   }
   return segments;
 }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/arena.h"
 #include "core/image.h"
 #include "pyramid/kernels.h"
 
@@ -18,8 +19,8 @@ namespace pomona {
 /// left to right.
 class SortedEdges {
  public:
-  /// Linear in the number of pixels, at most 2^30 of them.
-  void build(GuideView image, const PyramidKernels& kernels, int threads);
+  /// Linear in the number of pixels, at most 2^30 of them. The edges lie in the current scope of `arena`.
+  void build(GuideView image, const PyramidKernels& kernels, Arena& arena, int threads);
 
   static constexpr int kWeights = 256;
   static constexpr int kDirections = 4;
@@ -29,7 +30,7 @@ class SortedEdges {
   /// Each edge is kDirections * (its upper or left pixel's index) + direction; see otherEnd().
   std::span<const std::uint32_t> ofWeight(int weight) const {
     const std::size_t w = static_cast<std::size_t>(weight);
-    return {edges_.data() + begin_[w], edges_.data() + begin_[w + 1]};
+    return {edges_ + begin_[w], edges_ + begin_[w + 1]};
   }
   static int firstEnd(std::uint32_t edge) { return static_cast<int>(edge / kDirections); }
   int otherEnd(std::uint32_t edge) const { return firstEnd(edge) + offset_[edge % kDirections]; }
@@ -41,8 +42,8 @@ class SortedEdges {
 
   int width_ = 0, height_ = 0;
   std::array<int, kDirections> offset_{};  // from a pixel's index to its neighbour's
-  Image<std::uint8_t> weights_;            // one row per image row and direction
-  Buffer<std::uint32_t> edges_;
+  ImageView<std::uint8_t> weights_;        // one row per image row and direction
+  std::uint32_t* edges_ = nullptr;
   std::array<std::uint32_t, kWeights + 1> begin_{};
 };
 
@@ -51,25 +52,28 @@ struct SegmentationParameters {
   int min_size_px;  ///< smaller segments are joined to a neighbour
 };
 
-/// What segment() keeps from one call to the next.
+/// Room for segment() to work in. Its memory is taken from the current scope of an arena, so that several
+/// threads may then divide an image at a time.
 struct SegmentationScratch {
+  explicit SegmentationScratch(const SortedEdges& edges, Arena& arena);
+
   struct Node {
     int parent;   ///< itself if it is the root of a component
     float limit;  ///< of a root: the largest weight that joins it to another
   };
-  Buffer<Node> nodes;
-  Buffer<int> size;  ///< of a root's component
-  Buffer<std::uint32_t> between;
+  Node* nodes;
+  int* size;  ///< of a root's component
+  std::uint32_t* between;
 };
 
-/// Divides an image into segments. `labels` receives their numbers row by row, 0 up to but not including the
-/// returned count, in the order of their first pixels.
+/// Divides an image into segments. `labels`, one per pixel, receives their numbers row by row, 0 up to but
+/// not including the returned count, in the order of their first pixels.
 ///
 /// Every pixel begins as a component of its own. Edges, in their order, join two components A and B if
 ///     weight <= min(Int(A) + k / |A|, Int(B) + k / |B|),
 /// where Int(C) is the largest weight among the edges that joined C together (0 for a single pixel). Then
 /// edges, in the same order, join different components of which one has fewer than `min_size_px` pixels.
-int segment(const SortedEdges& edges, const SegmentationParameters& parameters, Buffer<std::int32_t>& labels,
-            SegmentationScratch& scratch);
+int segment(const SortedEdges& edges, const SegmentationParameters& parameters, std::int32_t* labels,
+            const SegmentationScratch& scratch);
 
 }  // namespace pomona

@@ -16,9 +16,10 @@ bool isAtColumn(int column, int x, float disparity) {
 
 }  // namespace
 
-void ViewBorder::find(ImageView<const float> disparity, ImageView<const std::uint8_t> state, int threads) {
+void ViewBorder::find(ImageView<const float> disparity, ImageView<const std::uint8_t> state, Arena& arena,
+                      int threads) {
   const int width = disparity.width, last = width - 1;
-  ends_.resize(static_cast<std::size_t>(disparity.height));
+  ends_ = arena.take<Ends>(static_cast<std::size_t>(disparity.height));
   parallelStrips(threads, disparity.height, kMinRowsPerStrip, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
       const float* d = disparity.row(y);
@@ -26,7 +27,7 @@ void ViewBorder::find(ImageView<const float> disparity, ImageView<const std::uin
       int left = 0, right = last;
       while (left < width && !isSource(d[left], s[left])) ++left;
       while (right > left && !isSource(d[right], s[right])) --right;
-      Ends& ends = ends_[static_cast<std::size_t>(y)];
+      Ends& ends = ends_[y];
       ends = {{-1, 0}, {width, 0}};
       if (left == width) continue;
       if (isAtColumn(0, left, d[left])) ends.left = {left, d[left]};

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "core/arena.h"
 #include "core/image.h"
 
 namespace pomona {
@@ -17,12 +18,12 @@ class ViewBorder {
     float disparity;
   };
 
-  /// Memory is kept from frame to frame.
-  void find(ImageView<const float> disparity, ImageView<const std::uint8_t> state, int threads);
+  /// The result lies in the current scope of `arena`.
+  void find(ImageView<const float> disparity, ImageView<const std::uint8_t> state, Arena& arena, int threads);
 
   /// The source that (x, y) lies beyond; null if there is none.
   const Source* before(int y, int x) const {
-    const Ends& ends = ends_[static_cast<std::size_t>(y)];
+    const Ends& ends = ends_[y];
     return x < ends.left.x ? &ends.left : x > ends.right.x ? &ends.right : nullptr;
   }
 
@@ -30,7 +31,7 @@ class ViewBorder {
   struct Ends {
     Source left, right;  // without one: before the first column, behind the last
   };
-  Buffer<Ends> ends_;  // of each row
+  Ends* ends_ = nullptr;  // of each row
 };
 
 }  // namespace pomona

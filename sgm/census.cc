@@ -83,22 +83,24 @@ void padRow(const T* from, int width, T* to) {
 }  // namespace
 
 template <typename T>
-void CensusTransform<T>::compute(ImageView<const T> gray, MatchingCost cost, CensusPlanes& out,
-                                 const SgmKernels& kernels, int threads) {
+CensusPlanes computeCensus(ImageView<const T> gray, MatchingCost cost, const SgmKernels& kernels,
+                           Arena& arena, int threads) {
   const Window& window = windowOf(cost);
   const int width = gray.width, height = gray.height;
+  CensusPlanes out;
   out.planes = (window.count + 7) / 8;
-  for (int p = 0; p < out.planes; ++p) out.plane[p].resize(width, height);
+  for (int p = 0; p < out.planes; ++p) out.plane[p] = arena.image<std::uint8_t>(width, height);
 
-  padded_.resize(width + 2 * kMarginX, height + 2 * kMarginY);
-  parallelStrips(threads, padded_.height(), 32, [&](int begin, int end) {
+  const Arena::Scope scope(arena);
+  const auto padded = arena.image<T>(width + 2 * kMarginX, height + 2 * kMarginY);
+  parallelStrips(threads, padded.height, 32, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
-      padRow(gray.row(std::clamp(y - kMarginY, 0, height - 1)), width, padded_.row(y));
+      padRow(gray.row(std::clamp(y - kMarginY, 0, height - 1)), width, padded.row(y));
   });
 
   parallelStrips(threads, height, 8, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
-      const auto at = [&](Offset o) { return padded_.row(y + kMarginY + o.dy) + kMarginX + o.dx; };
+      const auto at = [&](Offset o) { return padded.row(y + kMarginY + o.dy) + kMarginX + o.dx; };
       for (int p = 0; p < out.planes; ++p) {
         const T *a[8], *b[8];
         for (int k = 0; k < 8; ++k) {
@@ -113,9 +115,12 @@ void CensusTransform<T>::compute(ImageView<const T> gray, MatchingCost cost, Cen
       }
     }
   });
+  return out;
 }
 
-template class CensusTransform<std::uint8_t>;
-template class CensusTransform<std::uint16_t>;
+template CensusPlanes computeCensus(ImageView<const std::uint8_t>, MatchingCost, const SgmKernels&, Arena&,
+                                    int);
+template CensusPlanes computeCensus(ImageView<const std::uint16_t>, MatchingCost, const SgmKernels&, Arena&,
+                                    int);
 
 }  // namespace pomona

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/arena.h"
 #include "core/image.h"
 #include "pomona/options.h"
 #include "sgm/kernels.h"
@@ -14,19 +15,13 @@ namespace pomona {
 /// The bit patterns of every pixel, one image per byte of the code.
 struct CensusPlanes {
   int planes = 0;
-  std::array<Image<std::uint8_t>, kMaxCensusPlanes> plane;
+  std::array<ImageView<std::uint8_t>, kMaxCensusPlanes> plane;
 };
 
 /// `gray`: 8 or 16 bits per pixel. Beyond the border the nearest pixel counts. Costs other than census are
-/// refused by assertion. Bits above the code's length are 0.
+/// refused by assertion. Bits above the code's length are 0. The result lies in the current scope of `arena`.
 template <typename T>
-class CensusTransform {
- public:
-  void compute(ImageView<const T> gray, MatchingCost cost, CensusPlanes& out, const SgmKernels& kernels,
-               int threads);
-
- private:
-  Image<T> padded_;
-};
+CensusPlanes computeCensus(ImageView<const T> gray, MatchingCost cost, const SgmKernels& kernels,
+                           Arena& arena, int threads);
 
 }  // namespace pomona

@@ -1,32 +1,34 @@
 #include "sgm/color_steps.h"
 
 #include <algorithm>
-
-#include "core/parallel.h"
+#include <cstdlib>
 
 namespace pomona {
 
-void ColorSteps::compute(GuideView image, const SgmKernels& kernels, int threads) {
-  const int width = image.width, channels = image.channels;
-  Image<std::uint8_t>* const maps[] = {&left_, &above_left_, &above_, &above_right_};
-  for (Image<std::uint8_t>* map : maps) map->resize(width + 2, image.height);
-  parallelStrips(threads, image.height, 16, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) {
-      for (Image<std::uint8_t>* map : maps)  // what no step is written to
-        for (int x : {0, 1, width, width + 1}) map->row(y)[x] = 0;
-      const std::uint8_t* here = image.row(y);
-      kernels.colorSteps(here + channels, here, channels, width - 1, left_.row(y) + 2);
-      if (y == 0) {
-        for (Image<std::uint8_t>* map : {&above_left_, &above_, &above_right_})
-          std::fill_n(map->row(y), width + 2, std::uint8_t{0});
-        continue;
-      }
-      const std::uint8_t* over = image.row(y - 1);
-      kernels.colorSteps(here + channels, over, channels, width - 1, above_left_.row(y) + 2);
-      kernels.colorSteps(here, over, channels, width, above_.row(y) + 1);
-      kernels.colorSteps(here, over + channels, channels, width - 1, above_right_.row(y) + 1);
-    }
-  });
+/// From pixel (x + dx, y + dy), where dx is -1, 0 or 1.
+void ColorSteps::stepsFrom(int y, int dx, int dy, std::uint8_t* out) const {
+  const int width = image_.width, channels = image_.channels;
+  if (y + dy < 0) {
+    std::fill_n(out, width + 2, std::uint8_t{0});
+    return;
+  }
+  const int first = std::max(0, -dx), count = width - std::abs(dx);  // the columns that have this neighbour
+  out[0] = out[1] = out[width] = out[width + 1] = 0;
+  kernels_.colorSteps(image_.row(y) + first * channels, image_.row(y + dy) + (first + dx) * channels,
+                      channels, count, out + 1 + first);
+}
+
+void ColorSteps::left(int y, std::uint8_t* out) const {
+  stepsFrom(y, -1, 0, out);
+}
+void ColorSteps::aboveLeft(int y, std::uint8_t* out) const {
+  stepsFrom(y, -1, -1, out);
+}
+void ColorSteps::above(int y, std::uint8_t* out) const {
+  stepsFrom(y, 0, -1, out);
+}
+void ColorSteps::aboveRight(int y, std::uint8_t* out) const {
+  stepsFrom(y, 1, -1, out);
 }
 
 }  // namespace pomona

@@ -9,19 +9,23 @@
 namespace pomona {
 
 /// Largest channel difference, 8-bit units, between (x, y) and one neighbour of the row above or to the left;
-/// 0 where that lies outside the image. The other four neighbours see the same steps from their side.
+/// 0 where that lies outside the image. The other four neighbours see the same steps from their side. Rows
+/// are computed where they are needed: it takes less time than a stored map would take memory.
 class ColorSteps {
  public:
-  void compute(GuideView image, const SgmKernels& kernels, int threads);
+  ColorSteps(GuideView image, const SgmKernels& kernels) : image_(image), kernels_(kernels) {}
 
-  /// Rows are readable from -1 to width.
-  const std::uint8_t* left(int y) const { return left_.row(y) + 1; }
-  const std::uint8_t* aboveLeft(int y) const { return above_left_.row(y) + 1; }
-  const std::uint8_t* above(int y) const { return above_.row(y) + 1; }
-  const std::uint8_t* aboveRight(int y) const { return above_right_.row(y) + 1; }
+  /// Write the steps into row y for the columns -1 to width: out[0] is column -1.
+  void left(int y, std::uint8_t* out) const;
+  void aboveLeft(int y, std::uint8_t* out) const;
+  void above(int y, std::uint8_t* out) const;
+  void aboveRight(int y, std::uint8_t* out) const;
 
  private:
-  Image<std::uint8_t> left_, above_left_, above_, above_right_;
+  void stepsFrom(int y, int dx, int dy, std::uint8_t* out) const;
+
+  GuideView image_;
+  const SgmKernels& kernels_;
 };
 
 }  // namespace pomona

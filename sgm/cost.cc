@@ -38,8 +38,9 @@ DisparityRange makeRange(int min_disparity, int disparities, const SgmKernels& k
   return {min_disparity, disparities, vectorsFor(disparities, kernels.vector_bytes), kernels.vector_bytes};
 }
 
-void MatchingCostRows::prepare(Kind kind, const Features& left, int width, int height, int planes,
-                               int maximum_cost, const DisparityRange& range, const SgmKernels& kernels) {
+void MatchingCostRows::start(Kind kind, const Features& left, int width, int height, int planes,
+                             int maximum_cost, const DisparityRange& range, const SgmKernels& kernels,
+                             Arena& arena) {
   kind_ = kind;
   left_ = left;
   width_ = width;
@@ -61,12 +62,12 @@ void MatchingCostRows::prepare(Kind kind, const Features& left, int width, int h
   phase_stride_ = ((width - 1) / range.vectors + 1 + range.vector_bytes + 63) / 64 * 64;
   plane_stride_ = phase_stride_ * range.vectors;
   row_stride_ = plane_stride_ * planes;
-  striped_.resize(static_cast<std::size_t>(row_stride_) * height);
+  striped_ = arena.take<std::uint8_t>(static_cast<std::size_t>(row_stride_) * height);
 }
 
 void MatchingCostRows::stripeRow(const std::uint8_t* right, int y, int plane) {
   constexpr int kBlock = 64;
-  std::uint8_t* const to = striped_.data() + y * row_stride_ + plane * plane_stride_;
+  std::uint8_t* const to = striped_ + y * row_stride_ + plane * plane_stride_;
   const int n = range_.vectors, length = static_cast<int>(phase_stride_);
   // Byte m of a phase stands for column c - m * n - phase. Columns right of the image come first, columns
   // left of it last; in between lie blocks whose columns are all inside.
@@ -84,50 +85,56 @@ void MatchingCostRows::stripeRow(const std::uint8_t* right, int y, int plane) {
   dealClamped(last, length);
 }
 
-void MatchingCostRows::stripe(std::span<const ImageView<const std::uint8_t>> right, int threads) {
+void MatchingCostRows::startCensus(const Features& left, int maximum_cost, const DisparityRange& range,
+                                   const SgmKernels& kernels, Arena& arena) {
+  const CensusPlanes& codes = *left.census;
+  start(Kind::kCensus, left, codes.plane[0].width, codes.plane[0].height, codes.planes, maximum_cost, range,
+        kernels, arena);
+}
+
+void MatchingCostRows::startBlended(const Features& left, int maximum_cost, const DisparityRange& range,
+                                    const SgmKernels& kernels, Arena& arena) {
+  start(Kind::kBlended, left, left.gray.width, left.gray.height, kBlendedPlanes, maximum_cost, range, kernels,
+        arena);
+}
+
+void MatchingCostRows::startTable(const Features& left, std::span<const std::uint8_t, 65536> table,
+                                  int maximum_cost, const DisparityRange& range, const SgmKernels& kernels,
+                                  Arena& arena) {
+  start(Kind::kTable, left, left.gray.width, left.gray.height, 1, maximum_cost, range, kernels, arena);
+  table_.resize(table.size());
+  std::copy(table.begin(), table.end(), table_.data());
+}
+
+void MatchingCostRows::setRight(const Features& right, int threads) {
+  ImageView<const std::uint8_t> planes[kMaxCensusPlanes];
+  const int codes = kind_ == Kind::kTable ? 0 : right.census->planes;
+  for (int p = 0; p < codes; ++p) planes[p] = right.census->plane[p];
+  if (kind_ == Kind::kBlended) planes[codes] = right.sobel;
+  if (kind_ != Kind::kCensus) planes[planes_ - 1] = right.gray;
   parallelStrips(threads, height_, 16, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
-      for (std::size_t p = 0; p < right.size(); ++p) stripeRow(right[p].row(y), y, static_cast<int>(p));
+      for (int p = 0; p < planes_; ++p) stripeRow(planes[p].row(y), y, p);
   });
 }
 
-void MatchingCostRows::prepareCensus(const Features& left, const Features& right, int maximum_cost,
-                                     const DisparityRange& range, const SgmKernels& kernels, int threads) {
-  const CensusPlanes& codes = *right.census;
-  prepare(Kind::kCensus, left, codes.plane[0].width(), codes.plane[0].height(), codes.planes, maximum_cost,
-          range, kernels);
-  ImageView<const std::uint8_t> planes[kMaxCensusPlanes];
-  for (int p = 0; p < codes.planes; ++p) planes[p] = codes.plane[p].view();
-  stripe({planes, static_cast<std::size_t>(codes.planes)}, threads);
-}
-
-void MatchingCostRows::prepareBlended(const Features& left, const Features& right, int maximum_cost,
-                                      const DisparityRange& range, const SgmKernels& kernels, int threads) {
-  prepare(Kind::kBlended, left, right.gray.width, right.gray.height, kBlendedPlanes, maximum_cost, range,
-          kernels);
-  const auto& codes = right.census->plane;
-  const ImageView<const std::uint8_t> planes[kBlendedPlanes] = {
-      codes[0].view(), codes[1].view(), codes[2].view(), codes[3].view(), right.sobel, right.gray};
-  stripe(planes, threads);
-}
-
-void MatchingCostRows::prepareTable(const Features& left, const Features& right,
-                                    std::span<const std::uint8_t, 65536> table, int maximum_cost,
-                                    const DisparityRange& range, const SgmKernels& kernels, int threads) {
-  prepare(Kind::kTable, left, right.gray.width, right.gray.height, 1, maximum_cost, range, kernels);
-  table_.resize(table.size());
-  std::copy(table.begin(), table.end(), table_.data());
-  stripe({&right.gray, 1}, threads);
-}
-
-void MatchingCostRows::prepareSupport(const ColorSteps& steps, int color_step, int threads) {
+void MatchingCostRows::prepareSupport(const ColorSteps& steps, int color_step, Arena& arena, int threads) {
   supported_ = color_step > 0;
   if (!supported_) return;
-  arms_.resize(width_, height_);
+  arms_ = arena.image<std::uint8_t>(width_, height_);
+  const Arena::Scope scope(arena);
+  const auto left_steps = arena.image<std::uint8_t>(width_ + 2, height_);
+  const auto above_steps = arena.image<std::uint8_t>(width_ + 2, height_);
   parallelStrips(threads, height_, 16, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
-      const std::uint8_t *left = steps.left(y), *above = steps.above(y);
-      const std::uint8_t* below = steps.above(std::min(y + 1, height_ - 1));
+      steps.left(y, left_steps.row(y));
+      steps.above(y, above_steps.row(y));
+    }
+  });
+  parallelStrips(threads, height_, 16, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      const std::uint8_t *left = left_steps.row(y) + 1, *above = above_steps.row(y) + 1;
+      const std::uint8_t* below = above_steps.row(std::min(y + 1, height_ - 1)) + 1;
       std::uint8_t* arms = arms_.row(y);
       const bool has_above = y > 0, has_below = y + 1 < height_;
       for (int x = 0; x < width_; ++x)
@@ -157,11 +164,12 @@ void MatchingCostRows::makeRamps(int weight, int reach_px) {
     }
 }
 
-void MatchingCostRows::preparePrior(ImageView<const float> map, int weight, int reach_px, int threads) {
+void MatchingCostRows::preparePrior(ImageView<const float> map, int weight, int reach_px, Arena& arena,
+                                    int threads) {
   has_prior_ = true;
   maximum_ += weight * reach_px;
   makeRamps(weight, reach_px);
-  prior_.resize(width_, height_);
+  prior_ = arena.image<std::uint16_t>(width_, height_);
   parallelStrips(threads, height_, 16, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < width_; ++x) {
@@ -197,38 +205,31 @@ void MatchingCostRows::row(int y, std::uint8_t* cost) const {
     kernels_->censusCost(censusRow(y, cost));
 }
 
-void CostRowReader::start(const MatchingCostRows& cost) {
-  cost_ = &cost;
-  const std::size_t bytes = static_cast<std::size_t>(cost.width_) * cost.range_.lanes();
-  for (auto& raw : raw_) {
-    raw.y = -1;
-    raw.cost.resize(bytes);
-  }
-  adjusted_.resize(bytes);
+CostRowReader::CostRowReader(const MatchingCostRows& cost, Arena& arena) : cost_(&cost) {
+  if (!cost.supported_) return;
+  for (auto& raw : raw_)
+    raw.cost = arena.take<std::uint8_t>(static_cast<std::size_t>(cost.width_) * cost.range_.lanes());
 }
 
 const std::uint8_t* CostRowReader::rawRow(int y) {
   auto& raw = raw_[y % 3];
-  if (raw.y != y) cost_->row(y, raw.cost.data());
+  if (raw.y != y) cost_->row(y, raw.cost);
   raw.y = y;
-  return raw.cost.data();
+  return raw.cost;
 }
 
-const std::uint8_t* CostRowReader::row(int y) {
+void CostRowReader::row(int y, std::uint8_t* cost) {
   const int vectors = cost_->range_.vectors, width = cost_->width_;
-  const std::uint8_t* cost = rawRow(y);
   if (cost_->supported_) {
-    const std::uint8_t* above = y > 0 ? rawRow(y - 1) : cost;
-    const std::uint8_t* below = y + 1 < cost_->height_ ? rawRow(y + 1) : cost;
-    cost_->kernels_->support({width, vectors, above, cost, below, cost_->arms_.row(y), adjusted_.data()});
-    cost = adjusted_.data();
+    const std::uint8_t* here = rawRow(y);
+    const std::uint8_t* above = y > 0 ? rawRow(y - 1) : here;
+    const std::uint8_t* below = y + 1 < cost_->height_ ? rawRow(y + 1) : here;
+    cost_->kernels_->support({width, vectors, above, here, below, cost_->arms_.row(y), cost});
+  } else {
+    cost_->row(y, cost);
   }
-  if (cost_->has_prior_) {
-    cost_->kernels_->prior(
-        {width, vectors, cost_->prior_.row(y), cost_->ramps_.data(), cost, adjusted_.data()});
-    cost = adjusted_.data();
-  }
-  return cost;
+  if (cost_->has_prior_)
+    cost_->kernels_->prior({width, vectors, cost_->prior_.row(y), cost_->ramps_.data(), cost, cost});
 }
 
 }  // namespace pomona

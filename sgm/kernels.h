@@ -78,13 +78,16 @@ struct TableCostRow {
   std::uint8_t* cost;
 };
 
-/// One row of one sweep. A sweep carries three paths from row to row (from the left, straight, from the
-/// right) and starts a horizontal one in every row. Arrays with a guard pixel hold width + 2 pixels, pixel x
-/// at x + 1.
+/// One row of one sweep, or a stretch of it. A sweep carries three paths from row to row (from the left,
+/// straight, from the right) and starts a horizontal one in every row. Arrays with a guard pixel hold
+/// width + 2 pixels, pixel x at x + 1.
 struct AggregateRow {
   int width, vectors;
-  bool diagonals;            ///< false: only the straight and the horizontal path
-  bool wide_sums;            ///< 16-bit partial sums instead of the 8-bit ones
+  int begin, end;        ///< the columns to be done now; stretches follow one another in the row's direction
+  std::uint8_t* border;  ///< aggregateBorderBytes() that carry the paths from stretch to stretch; null if the
+                         ///< row is done at once
+  bool diagonals;        ///< false: only the straight and the horizontal path
+  bool wide_sums;        ///< 16-bit partial sums instead of the 8-bit ones
   const std::uint8_t* cost;  ///< width * vectors * kBytes; or null:
   CensusCostRow census;      ///< the costs are those of three planes, and computed on the way
   std::uint8_t* path[3];     ///< in: costs of the previous row, out: of this one; guard pixels are zero
@@ -115,9 +118,11 @@ struct WinnerRow {
   std::uint16_t* right_best;   ///< out: its sum; must come in as kNoIndex
   std::uint16_t*
       right_below;  ///< out: the sum one disparity below, seen from the same right pixel; 0xFFFF, like
-  std::uint16_t* right_above;  ///< right_above, unless both lie in the image and the range
-  std::uint16_t* recent;       ///< scratch: the sums of the last recent_mask + 1 pixels
-  int recent_mask;             ///< a power of two less one; at least disparities + 2 + kWinnerBlock pixels
+  std::uint16_t* right_above;   ///< right_above, unless both lie in the image and the range
+  std::uint16_t* recent;        ///< scratch: the sums of the last recent_mask + 1 pixels
+  int recent_mask;              ///< a power of two less one; at least disparities + 2 + kWinnerBlock pixels
+  std::uint16_t* right_border;  ///< 4 * vectors * kBytes words that carry the right view's candidates from
+                                ///< stretch to stretch; null if the row is done at once
 };
 
 /// How clearly the winners of a row have won.
@@ -164,7 +169,8 @@ struct SgmKernels {
   void (*score)(const ScoreRow&);
   /// One per SubpixelMethod, in its order.
   void (*refine[4])(const RefineRow&);
-  /// Right to left; completes the sums and picks the winners of both views.
+  /// Right to left; completes the sums and picks the winners of both views, which are valid once the row is
+  /// done.
   void (*aggregateLast)(const AggregateRow&, const WinnerRow&);
 };
 
@@ -172,6 +178,11 @@ const SgmKernels& sgmKernels(Isa isa);
 
 constexpr int vectorsFor(int disparities, int vector_bytes) {
   return (disparities + vector_bytes - 1) / vector_bytes;
+}
+
+/// Two pixels' path costs, and their minima.
+constexpr int aggregateBorderBytes(int vectors, int vector_bytes) {
+  return 2 * (vectors + 1) * vector_bytes;
 }
 
 /// A mask that lets every disparity index, and every packed one, through.

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
-#include "core/parallel.h"
 #include "pomona/pixel_state.h"
+#include "sgm/census.h"
+#include "sgm/color_steps.h"
+#include "sgm/sobel.h"
 
 namespace pomona {
 
@@ -14,7 +16,7 @@ void finishRow(const WinnerRow& w, int y, const MatchOptions& o, const SgmKernel
   refine({width, o.disparities, o.min_disparity, w.right_index, w.right_best, w.right_below, w.right_above,
           out.right_disparity.row(y)});
 
-  kernels.score({width, w.best, w.below, w.above, w.second, out.margin.row(y), out.curvature.row(y)});
+  kernels.score({width, w.best, w.below, w.above, w.second, out.margin(y), out.curvature(y)});
 
   constexpr auto kMeasured = static_cast<std::uint8_t>(PixelState::kMeasured);
   std::uint8_t* state = out.state.row(y);
@@ -26,56 +28,66 @@ void finishRow(const WinnerRow& w, int y, const MatchOptions& o, const SgmKernel
       state[x] = static_cast<std::uint8_t>(PixelState::kAmbiguous);
 }
 
+namespace {
+
+/// What a view is compared by; in the current scope of an arena.
+struct View {
+  View(ImageView<const std::uint8_t> gray8, ImageView<const std::uint16_t> gray16, MatchingCost cost,
+       const SgmKernels& kernels, Arena& arena, int threads)
+      : gray(gray8) {
+    if (cost != MatchingCost::kMutualInformation)
+      census = gray16.empty() ? computeCensus(gray, cost, kernels, arena, threads)
+                              : computeCensus(gray16, cost, kernels, arena, threads);
+    if (cost == MatchingCost::kBlended) sobel = computeSobel(gray, kernels, arena, threads);
+  }
+  MatchingCostRows::Features features() const { return {&census, sobel, gray}; }
+
+  ImageView<const std::uint8_t> gray, sobel;
+  CensusPlanes census;
+};
+
+}  // namespace
+
 void MatchMaps::resize(int width, int height) {
   disparity.resize(width, height);
   right_disparity.resize(width, height);
-  margin.resize(width, height);
-  curvature.resize(width, height);
+  scores.resize(2 * width, height);
   state.resize(width, height);
-}
-
-MatchingCostRows::Features SgmMatcher::extract(ImageView<const std::uint8_t> gray,
-                                               ImageView<const std::uint16_t> gray16, MatchingCost cost,
-                                               View& view, const SgmKernels& kernels, int threads) {
-  if (cost != MatchingCost::kMutualInformation) {
-    if (gray16.empty())
-      census_.compute(gray, cost, view.census, kernels, threads);
-    else
-      census16_.compute(gray16, cost, view.census, kernels, threads);
-  }
-  if (cost == MatchingCost::kBlended) sobel_.compute(gray, view.sobel, kernels, threads);
-  return {&view.census, view.sobel.view(), gray};
 }
 
 void SgmMatcher::findWinners(const MatchInput& pair, const MatchOptions& options,
                              std::span<const std::uint8_t> table, const SgmKernels& kernels, WinnerSink sink,
-                             int threads) {
+                             Arena& scratch, int threads) {
+  const Arena::Scope scope(scratch);
   const MatchingCost kind = options.cost.cost;
   const DisparityRange range = makeRange(options.min_disparity, options.disparities, kernels);
-
-  const auto left = extract(pair.left, pair.left16, kind, left_, kernels, threads);
-  const auto right = extract(pair.right, pair.right16, kind, right_, kernels, threads);
+  const int maximum = maximumCost(kind);
+  const View left(pair.left, pair.left16, kind, kernels, scratch, threads);
   if (kind == MatchingCost::kMutualInformation)
-    cost_.prepareTable(left, right, table.first<65536>(), maximumCost(kind), range, kernels, threads);
+    cost_.startTable(left.features(), table.first<65536>(), maximum, range, kernels, scratch);
   else if (kind == MatchingCost::kBlended)
-    cost_.prepareBlended(left, right, maximumCost(kind), range, kernels, threads);
+    cost_.startBlended(left.features(), maximum, range, kernels, scratch);
   else
-    cost_.prepareCensus(left, right, maximumCost(kind), range, kernels, threads);
+    cost_.startCensus(left.features(), maximum, range, kernels, scratch);
+  {
+    const Arena::Scope right_scope(scratch);
+    const View right(pair.right, pair.right16, kind, kernels, scratch, threads);
+    cost_.setRight(right.features(), threads);
+  }
 
-  const bool adapts = options.aggregation.adaptation != PenaltyAdaptation::kConstant;
-  if (adapts || options.cost.support_color_step > 0) steps_.compute(pair.guide, kernels, threads);
-  cost_.prepareSupport(steps_, options.cost.support_color_step, threads);
+  const ColorSteps steps(pair.guide, kernels);
+  cost_.prepareSupport(steps, options.cost.support_color_step, scratch, threads);
   if (!pair.prior.empty())
-    cost_.preparePrior(pair.prior, options.prior_weight, options.prior_reach_px, threads);
-  aggregator_.run(cost_, steps_, options.aggregation, options.memory, kernels, sink, threads);
+    cost_.preparePrior(pair.prior, options.prior_weight, options.prior_reach_px, scratch, threads);
+  aggregate(cost_, steps, options.aggregation, options.memory, kernels, sink, scratch, threads);
 }
 
 void SgmMatcher::match(const MatchInput& pair, const MatchOptions& options,
                        std::span<const std::uint8_t> table, const SgmKernels& kernels, MatchMaps& out,
-                       int threads) {
+                       Arena& scratch, int threads) {
   out.resize(pair.left.width, pair.left.height);
   const auto finish = [&](int y, const WinnerRow& winners) { finishRow(winners, y, options, kernels, out); };
-  findWinners(pair, options, table, kernels, finish, threads);
+  findWinners(pair, options, table, kernels, finish, scratch, threads);
 }
 
 }  // namespace pomona

@@ -4,13 +4,11 @@
 #include <cstdint>
 #include <span>
 
+#include "core/arena.h"
 #include "core/image.h"
 #include "pomona/options.h"
 #include "sgm/aggregation.h"
-#include "sgm/census.h"
-#include "sgm/color_steps.h"
 #include "sgm/cost.h"
-#include "sgm/sobel.h"
 
 namespace pomona {
 
@@ -40,10 +38,16 @@ struct MatchOptions {
 struct MatchMaps {
   Image<float> disparity;        ///< of the left view; never NaN
   Image<float> right_disparity;  ///< of the right view; NaN where no left pixel maps to
-  /// Of the path sums S: how clearly the winner won, the lowest more than one disparity away less S(d),
-  /// large if there is none; and how sharply, S(d - 1) + S(d + 1) - 2 S(d).
-  Image<std::uint16_t> margin, curvature;
-  Image<std::uint8_t> state;  ///< PixelState: measured, or ambiguous where uniqueness fails
+  Image<std::uint8_t> state;     ///< PixelState: measured, or ambiguous where uniqueness fails
+  /// Rows of what tells how clearly the winner won, of the path sums S: the lowest more than one disparity
+  /// away less S(d), large if there is none;
+  std::uint16_t* margin(int y) { return scores.row(y); }
+  const std::uint16_t* margin(int y) const { return scores.row(y); }
+  /// and how sharply: S(d - 1) + S(d + 1) - 2 S(d).
+  std::uint16_t* curvature(int y) { return scores.row(y) + disparity.width(); }
+  const std::uint16_t* curvature(int y) const { return scores.row(y) + disparity.width(); }
+
+  Image<std::uint16_t> scores;  ///< the two above, side by side
 
   void resize(int width, int height);
 };
@@ -56,28 +60,14 @@ class SgmMatcher {
  public:
   /// `table`: for kMutualInformation, the cost of every pair of 8-bit values (see mutual_information.h).
   void match(const MatchInput& pair, const MatchOptions& options, std::span<const std::uint8_t> table,
-             const SgmKernels& kernels, MatchMaps& out, int threads);
+             const SgmKernels& kernels, MatchMaps& out, Arena& scratch, int threads);
 
   /// The same up to the winners of each row, for whoever wants to look at the sums behind a match.
   void findWinners(const MatchInput& pair, const MatchOptions& options, std::span<const std::uint8_t> table,
-                   const SgmKernels& kernels, WinnerSink sink, int threads);
+                   const SgmKernels& kernels, WinnerSink sink, Arena& scratch, int threads);
 
  private:
-  struct View {
-    CensusPlanes census;
-    Image<std::uint8_t> sobel;
-  };
-  MatchingCostRows::Features extract(ImageView<const std::uint8_t> gray,
-                                     ImageView<const std::uint16_t> gray16, MatchingCost cost, View& view,
-                                     const SgmKernels& kernels, int threads);
-
-  CensusTransform<std::uint8_t> census_;
-  CensusTransform<std::uint16_t> census16_;
-  SobelFilter sobel_;
-  View left_, right_;
-  ColorSteps steps_;
   MatchingCostRows cost_;
-  Aggregator aggregator_;
 };
 
 }  // namespace pomona

@@ -1,12 +1,15 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "core/arena.h"
 #include "core/cpu.h"
 #include "core/image.h"
 #include "core/parallel.h"
@@ -44,6 +47,27 @@ TEST(ParallelStrips, CoversAllRowsWithoutOverlap) {
       }
 }
 
+TEST(TaskProgress, FollowersSeeWhatWasWrittenBefore) {
+  constexpr int kTasks = 40, kSteps = 50;
+  for (int threads : {1, 2, 3, 7, 16}) {
+    std::vector<TaskProgress> progress(kTasks);
+    std::vector<std::vector<int>> value(kTasks, std::vector<int>(kSteps, -1));
+    std::atomic<int> wrong{0};
+    parallelFor(threads, kTasks, [&](int task) {
+      for (int step = 0; step < kSteps; ++step) {
+        if (task > 0) {
+          progress[task - 1].await(step + 1);
+          wrong += value[task - 1][step] != task - 1 + step;
+        }
+        value[task][step] = task + step;
+        progress[task].reach(step + 1);
+      }
+    });
+    EXPECT_EQ(wrong, 0) << "threads " << threads;
+    EXPECT_EQ(value[kTasks - 1][kSteps - 1], kTasks + kSteps - 2);
+  }
+}
+
 TEST(Isa, ScalarIsAlwaysThereAndBadNamesAreRefused) {
   EXPECT_EQ(usableIsas().front(), Isa::kScalar);
   EXPECT_EQ(chooseIsa("scalar"), Isa::kScalar);
@@ -71,6 +95,42 @@ TEST(Image, RowsAreAlignedAndMemoryIsKept) {
   const float* before = image.row(0);
   image.resize(5, 3);
   EXPECT_EQ(image.row(0), before);
+}
+
+TEST(Arena, GivesTheSameMemoryToOneScopeAfterTheOther) {
+  Arena arena;
+  const auto stage = [&](int count) {
+    const Arena::Scope scope(arena);
+    int* const first = arena.take<int>(count);
+    {
+      const Arena::Scope inner(arena);
+      arena.take<int>(count);
+    }
+    const ImageView<float> image = arena.image<float>(33, 7);
+    EXPECT_EQ(image.width, 33);
+    EXPECT_EQ(image.height, 7);
+    for (int y = 0; y < 7; ++y) EXPECT_EQ(reinterpret_cast<std::uintptr_t>(image.row(y)) % 64, 0u);
+    std::fill_n(first, count, 5);
+    for (int y = 0; y < 7; ++y) std::fill_n(image.row(y), 33, 7.0f);
+    EXPECT_EQ(std::count(first, first + count, 5), count);  // they do not overlap
+    return first;
+  };
+  stage(100'000);
+  stage(300'000);
+  int* const settled = stage(300'000);
+  const std::size_t capacity = arena.capacity();
+  EXPECT_GE(capacity, 2 * 300'000 * sizeof(int));
+  EXPECT_LE(capacity, 4 * 300'000 * sizeof(int));
+  for (int count : {1, 50'000, 300'000}) EXPECT_EQ(stage(count), settled);
+  EXPECT_EQ(arena.capacity(), capacity);
+}
+
+TEST(Arena, RefusesWhatCannotBe) {
+  Arena arena;
+  const Arena::Scope scope(arena);
+  EXPECT_THROW(arena.take<double>(static_cast<std::size_t>(-1) / 4), std::bad_alloc);
+  EXPECT_THROW(arena.take<char>(static_cast<std::size_t>(-1)), std::bad_alloc);
+  EXPECT_NE(arena.take<char>(1), nullptr);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ struct Scene {
   ImageView<const float> operator()() const { return coarse.view(); }
   HoleFillInput input() const { return {guide.guide(), right.view(), *this, radius_px, fallback}; }
   void fill(const PyramidKernels& kernels = pyramidKernels(usableIsas().back()), int threads = 1) {
-    HoleFillScratch scratch;
+    Arena scratch;
     fillHoles(input(), disparity.view(), state.view(), scratch, kernels, threads);
   }
   PixelState stateAt(int y, int x) const { return static_cast<PixelState>(state.at(y, x)); }
@@ -114,7 +114,7 @@ void expectTwin(const Case& c, unsigned seed) {
   std::vector<float> disparity;
   std::vector<std::uint8_t> state;
   runTwin(original, disparity, state);
-  HoleFillScratch scratch;
+  Arena scratch;
   forEachSetting([&](const PyramidKernels& kernels, int threads) {
     Scene s = original;
     fillHoles(s.input(), s.disparity.view(), s.state.view(), scratch, kernels, threads);
@@ -304,7 +304,7 @@ TEST(FillHoles, BeyondTheRadiusTheCoarseMapDecidesAndWithoutOneTheRow) {
       s.coarse.fill([](int, int, int) { return 2.0f; });
     else
       in.coarse = no_map;
-    HoleFillScratch scratch;
+    Arena scratch;
     fillHoles(in, s.disparity.view(), s.state.view(), scratch, pyramidKernels(Isa::kScalar), 2);
     EXPECT_EQ(s.disparity.at(0, 14), 9.0f);
     EXPECT_EQ(s.stateAt(0, 14), PixelState::kFilledBackground);
@@ -314,7 +314,7 @@ TEST(FillHoles, BeyondTheRadiusTheCoarseMapDecidesAndWithoutOneTheRow) {
 }
 
 TEST(FillHoles, ScratchIsReusableAcrossSizesAndChannelCounts) {
-  HoleFillScratch scratch;
+  Arena scratch;
   for (const Case& c : {Case{65, 40, 3, 200, 50, 9, true}, Case{31, 20, 1, 6, 30, 1, false},
                         Case{70, 50, 1, 20, 90, 9, true}}) {
     Scene fresh = randomScene(c, 5), reused = fresh;

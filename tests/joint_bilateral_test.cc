@@ -38,7 +38,7 @@ using FilterFunction = decltype(&jointBilateral);
 
 Map<float> run(FilterFunction filter, const Map<float>& in, GuideView guide, const BilateralParameters& p,
                Isa isa, int threads, int margin = 0) {
-  static BilateralScratch scratch;  // kept from size to size, as an engine does
+  static Arena scratch;  // kept from size to size, as an engine does
   Framed<float> from(in, margin, 55.0f);
   Framed<float> to(Map<float>(in.width, in.height, 77.0f), margin, 77.0f);
   filter(from.view(), guide, p, to.view(), scratch, filterKernels(isa), threads);
@@ -136,7 +136,7 @@ TEST(JointBilateral, MayWorkInPlace) {
   const Guide guide(65, 20, 1, 9);
   for (BilateralTarget target : {BilateralTarget::kEveryPixel, BilateralTarget::kHolesOnly}) {
     const BilateralParameters p{2.0f, 20.0f, target};
-    BilateralScratch scratch;
+    Arena scratch;
     Framed<float> map(in, 2, 1.0f);
     jointBilateral(map.view(), guide.view, p, map.view(), scratch, filterKernels(usableIsas().back()), 3);
     EXPECT_TRUE(sameBits(map.map(), run(jointBilateral, in, guide.view, p, Isa::kScalar, 1)));
@@ -191,7 +191,7 @@ TEST(CompleteByBilateral, EndsWhereNothingCanBeFilled) {
 }
 
 TEST(JointBilateral, RefusesBadParameters) {
-  BilateralScratch scratch;
+  Arena scratch;
   Framed<float> map(Map<float>(4, 4, 1.0f), 0, 0);
   const std::vector<std::uint8_t> bytes(64, 0);
   const auto filter = [&](float sigma_space, float sigma_range, int channels) {

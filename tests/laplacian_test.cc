@@ -37,9 +37,11 @@ TEST(GaussianPyramid, MatchesItsTwinOnEveryLevel) {
     SCOPED_TRACE(sizeText(width, height));
     const Padded<float> map = randomMap(width, height, 1, 1000);
     const std::vector<reference::Map> twin = reference::gaussianPyramid(toTwin(map.view()), 6);
+    Arena arena;
     GaussianPyramid pyramid;
     forEachSetting([&](const PyramidKernels& kernels, int threads) {
-      pyramid.build(map.view(), 6, kernels, threads);
+      const Arena::Scope scope(arena);
+      pyramid.build(map.view(), 6, kernels, arena, threads);
       ASSERT_EQ(pyramid.levels(), static_cast<int>(twin.size()));
       for (int i = 0; i < pyramid.levels(); ++i) expectNear(pyramid.level(i), twin[i], 5e-4);
     });
@@ -51,9 +53,11 @@ TEST(LaplacianPyramid, MatchesItsTwinOnEveryLevel) {
     SCOPED_TRACE(sizeText(width, height));
     const Padded<float> map = randomMap(width, height, 2, 1000);
     const std::vector<reference::Map> twin = reference::laplacianPyramid(toTwin(map.view()), 6);
+    Arena arena;
     LaplacianPyramid pyramid;
     forEachSetting([&](const PyramidKernels& kernels, int threads) {
-      pyramid.build(map.view(), 6, kernels, threads);
+      const Arena::Scope scope(arena);
+      pyramid.build(map.view(), 6, kernels, arena, threads);
       ASSERT_EQ(pyramid.levels(), static_cast<int>(twin.size()));
       for (int i = 0; i < pyramid.levels(); ++i) expectNear(pyramid.level(i), twin[i], 5e-4);
     });
@@ -65,15 +69,17 @@ TEST(LaplacianPyramid, ReconstructsPerfectlyAndIsTheSameOnEverySetting) {
     for (int levels : {1, 2, 6, kMaxPyramidLevels}) {
       SCOPED_TRACE(sizeText(width, height) + ", levels " + std::to_string(levels));
       const Padded<float> map = randomMap(width, height, 3, 1000);
+      Arena arena;
       LaplacianPyramid pyramid;
       Padded<float> first(width, height, -7.0f);
-      pyramid.build(map.view(), levels, pyramidKernels(Isa::kScalar), 1);
-      pyramid.collapse(first.view(), pyramidKernels(Isa::kScalar), 1);
+      pyramid.build(map.view(), levels, pyramidKernels(Isa::kScalar), arena, 1);
+      pyramid.collapse(first.view(), pyramidKernels(Isa::kScalar), arena, 1);
       expectNear(first.view(), toTwin(map.view()), 1e-4);
       forEachSetting([&](const PyramidKernels& kernels, int threads) {
         Padded<float> out(width, height, -7.0f);
-        pyramid.build(map.view(), levels, kernels, threads);
-        pyramid.collapse(out.view(), kernels, threads);
+        const Arena::Scope scope(arena);
+        pyramid.build(map.view(), levels, kernels, arena, threads);
+        pyramid.collapse(out.view(), kernels, arena, threads);
         EXPECT_TRUE(out.sameBytes(first));
       });
     }
@@ -82,8 +88,9 @@ TEST(LaplacianPyramid, ReconstructsPerfectlyAndIsTheSameOnEverySetting) {
 TEST(LaplacianPyramid, BandsOfAConstantAreZero) {
   Padded<float> map(37, 22, 0.0f);
   map.fill([](int, int, int) { return 640.0f; });
+  Arena arena;
   LaplacianPyramid pyramid;
-  pyramid.build(std::as_const(map).view(), 4, pyramidKernels(usableIsas().back()), 1);
+  pyramid.build(std::as_const(map).view(), 4, pyramidKernels(usableIsas().back()), arena, 1);
   ASSERT_EQ(pyramid.levels(), 4);
   for (int i = 0; i < 3; ++i)
     expectNear(pyramid.level(i), reference::Map(pyramid.level(i).width, pyramid.level(i).height, 0), 0);
@@ -98,7 +105,7 @@ TEST(FuseEqual, IsTheAverageForAnyNumberOfLevels) {
       reference::Map average(width, height);
       for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) average.at(y, x) = 0.5 * (double{a.at(y, x)} + b.at(y, x));
-      FusionScratch scratch;
+      Arena scratch;
       Padded<float> first(width, height, -7.0f);
       fuseEqual(a.view(), b.view(), levels, first.view(), scratch, pyramidKernels(Isa::kScalar), 1);
       expectNear(first.view(), average, 1e-4);

@@ -45,7 +45,7 @@ void expectTwin(const Map<float>& left, const Map<std::uint8_t>& state, const Ma
                      << "; isa " << name(isa) << " threads " << threads << " margin " << margin);
         Framed<float> d(left, margin, 5.0f), r(right, margin, 5.0f);
         Framed<std::uint8_t> s(state, margin, 0);
-        LeftRightScratch scratch;
+        Arena scratch;
         leftRightCheck(d.view(), s.view(), r.view(), search.threshold, search.min_disparity,
                        search.num_disparities, scratch, filterKernels(isa), threads);
         ASSERT_TRUE(sameBits(d.map(), expected));
@@ -82,7 +82,7 @@ TEST(LeftRightCheck, PixelsOfOtherStatesAreLeftAlone) {
     Framed<float> d(left, 0, 0);
     Framed<std::uint8_t> s(Map<std::uint8_t>(20, 2, static_cast<std::uint8_t>(other)), 0, 0);
     Framed<float> r(right, 0, 0);
-    LeftRightScratch scratch;
+    Arena scratch;
     leftRightCheck(d.view(), s.view(), r.view(), 1, 0, 16, scratch, filterKernels(chooseIsa({})), 1);
     EXPECT_TRUE(sameBits(d.map(), left)) << "state " << static_cast<int>(other);
   }
@@ -100,7 +100,7 @@ TEST(LeftRightCheck, TellsOcclusionFromMismatchFromOutOfRange) {
 
   Framed<float> d(left, 0, 0), r(right, 0, 0);
   Framed<std::uint8_t> s(testing::stateOf(left), 0, 0);
-  LeftRightScratch scratch;
+  Arena scratch;
   leftRightCheck(d.view(), s.view(), r.view(), 1, 0, 16, scratch, filterKernels(chooseIsa({})), 1);
   for (int x = 0; x < 48; ++x) {
     const PixelState expected = x < 2                           ? PixelState::kOutOfRange

@@ -15,7 +15,7 @@ using testing::kUnknown;
 using testing::Map;
 using testing::sameBits;
 
-void expectTwin(const Map<float>& map, MedianScratch& scratch) {
+void expectTwin(const Map<float>& map, Arena& scratch) {
   for (int size : {3, 5}) {
     const Map<float> expected = reference::medianFilter(map, size);
     for (Isa isa : usableIsas())
@@ -36,7 +36,7 @@ void expectTwin(const Map<float>& map, MedianScratch& scratch) {
 }
 
 TEST(MedianFilter, EqualsItsTwinForAnyShareOfUnknownPixels) {
-  MedianScratch scratch;  // kept from size to size, as an engine does
+  Arena scratch;  // kept from size to size, as an engine does
   for (int width : testing::kWidths)
     for (int height : {1, 2, 37})
       for (double unknown : {0.0, 0.1, 0.5, 0.9})
@@ -44,7 +44,7 @@ TEST(MedianFilter, EqualsItsTwinForAnyShareOfUnknownPixels) {
 }
 
 TEST(MedianFilter, EqualsItsTwinOnExtremeFills) {
-  MedianScratch scratch;
+  Arena scratch;
   const float largest = std::numeric_limits<float>::max();
   for (float fill : {kUnknown, 0.0f, -3.25f, largest, -largest}) {
     Map<float> map(35, 6, fill);
@@ -60,7 +60,7 @@ TEST(MedianFilter, OfTwoMiddleValuesTakesTheLower) {
   map.at(0, 0) = 1.0f;
   map.at(2, 2) = 2.0f;
   map.at(0, 2) = 8.0f;
-  MedianScratch scratch;
+  Arena scratch;
   for (Isa isa : usableIsas()) {
     Framed<float> in(map, 0, 0), out(map, 0, 0);
     medianFilter(in.view(), out.view(), 3, filterKernels(isa), scratch, 1);
@@ -70,7 +70,7 @@ TEST(MedianFilter, OfTwoMiddleValuesTakesTheLower) {
 }
 
 TEST(MedianFilter, RefusesOtherSizes) {
-  MedianScratch scratch;
+  Arena scratch;
   for (int size : {-3, 0, 1, 2, 4, 7}) {
     Framed<float> in(Map<float>(8, 8, 1.0f), 0, 0), out(Map<float>(8, 8, 1.0f), 0, 0);
     EXPECT_THROW(medianFilter(in.view(), out.view(), size, filterKernels(Isa::kScalar), scratch, 1),

@@ -1,6 +1,8 @@
 #include "pyramid/plane_fill.h"
 
 #include "pyramid/holes.h"
+#include "pyramid/scale.h"
+#include "pyramid/segment_cells.h"
 #include "tests/pyramid_support.h"
 
 namespace pomona {
@@ -39,7 +41,7 @@ struct Scene {
       for (int x = x0; x < x0 + w; ++x) dig(y, x, reason);
   }
   void fill(const PyramidKernels& kernels = pyramidKernels(usableIsas().back()), int threads = 1) {
-    PlaneFillScratch scratch;
+    Arena scratch;
     fillFromPlanes(input(), disparity.view(), state.view(), scratch, kernels, threads);
   }
   PlaneFillInput input() const {
@@ -296,7 +298,7 @@ TEST(FillFromPlanes, SameBytesForEveryThreadCountAndInstructionSet) {
       Scene want = original;
       want.fill(pyramidKernels(Isa::kScalar), 1);
       EXPECT_TRUE(width * height < 1000 || !want.state.sameBytes(original.state));
-      PlaneFillScratch scratch;  // serves all
+      Arena scratch;  // serves all
       forEachSetting([&](const PyramidKernels& kernels, int threads) {
         Scene s = original;
         fillFromPlanes(s.input(), s.disparity.view(), s.state.view(), scratch, kernels, threads);
@@ -312,13 +314,14 @@ TEST(SegmentCells, CountEverySourceAndHoleOnce) {
     for (int scale : {1, 2, 3, 4}) {
       const Scene s = randomScene(width, height, 1, 1, 9);
       const int columns = scaledLength(width, scale), rows = scaledLength(height, scale);
+      Arena arena;
       SegmentCells cells;
-      Buffer<std::int32_t> labels;
-      labels.resize(static_cast<std::size_t>(columns * rows));
+      std::vector<std::int32_t> labels(static_cast<std::size_t>(columns * rows));
       for (int i = 0; i < columns * rows; ++i) labels[static_cast<std::size_t>(i)] = i % 3 == 2 ? 0 : i % 3;
       forEachSetting([&](const PyramidKernels& kernels, int threads) {
-        cells.count(s.disparity.view(), s.state.view(), columns, rows, kernels, threads);
-        cells.group(labels, 3);
+        const Arena::Scope scope(arena);
+        cells.count(s.disparity.view(), s.state.view(), columns, rows, kernels, arena, threads);
+        cells.group(labels.data(), 3);
         std::vector<int> visits(static_cast<std::size_t>(width * height), 0);
         for (int segment = 0; segment < 3; ++segment)
           for (const SegmentCells::Cell c : cells.segment(segment)) {

@@ -23,7 +23,7 @@ constexpr double kTolerance_px = 1e-5;
 
 Map<float> run(const Map<float>& in, GuideView guide, int radius, Isa isa, int threads, int margin = 0,
                bool in_place = false) {
-  static GuidedPlane scratch;  // kept from size to size, as an engine does
+  static Arena scratch;  // kept from size to size, as an engine does
   Framed<float> from(in, margin, 55.0f);
   Framed<float> to(Map<float>(in.width, in.height, 77.0f), margin, 77.0f);
   Framed<float>& out = in_place ? from : to;

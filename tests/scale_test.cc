@@ -44,10 +44,11 @@ TEST(AreaDownscale, IsTheExactMeanOfEightBitImages) {
         in.fill([&](int, int, int) {
           return static_cast<std::uint8_t>(extreme ? 255 * (random() % 2) : random());
         });
-        ScaleScratch scratch;
+        Arena scratch;
         Image<std::uint8_t> out;
         forEachSetting([&](const PyramidKernels& kernels, int threads) {
-          areaDownscale(in.guide(), out, s.out_w, s.out_h, scratch, kernels, threads);
+          out.resize(s.out_w * channels, s.out_h);
+          areaDownscale(in.guide(), out.view(), scratch, kernels, threads);
           expectAreaMeans(in, out, s);
         });
       }
@@ -59,10 +60,11 @@ TEST(AreaDownscale, IsTheExactMeanOfSixteenBitImages) {
       std::mt19937 random(8);
       Padded<std::uint16_t> in(s.in_w, s.in_h, 99);
       in.fill([&](int, int, int) { return static_cast<std::uint16_t>(white ? 65535 : random()); });
-      ScaleScratch scratch;
+      Arena scratch;
       Image<std::uint16_t> out;
       forEachSetting([&](const PyramidKernels& kernels, int threads) {
-        areaDownscale(std::as_const(in).view(), out, s.out_w, s.out_h, scratch, kernels, threads);
+        out.resize(s.out_w, s.out_h);
+        areaDownscale(std::as_const(in).view(), out.view(), scratch, kernels, threads);
         expectAreaMeans(in, out, s);
       });
     }
@@ -72,9 +74,9 @@ TEST(AreaDownscale, AveragesBoxesForWholeRatios) {
   Padded<std::uint8_t> in(12, 8, 0);
   std::mt19937 random(9);
   in.fill([&](int, int, int) { return static_cast<std::uint8_t>(random()); });
-  ScaleScratch scratch;
-  Image<std::uint8_t> out;
-  areaDownscale(in.guide(), out, 3, 2, scratch, pyramidKernels(Isa::kScalar), 1);
+  Arena scratch;
+  Image<std::uint8_t> out(3, 2);
+  areaDownscale(in.guide(), out.view(), scratch, pyramidKernels(Isa::kScalar), 1);
   for (int y = 0; y < 2; ++y)
     for (int x = 0; x < 3; ++x) {
       int sum = 0;
@@ -87,9 +89,9 @@ TEST(AreaDownscale, DoesNotOverflowOnTallWhiteImages) {
   const int height = 65535;
   Padded<std::uint16_t> in(3, height, 0);
   in.fill([](int, int, int) { return std::uint16_t{65535}; });
-  ScaleScratch scratch;
-  Image<std::uint16_t> out;
-  areaDownscale(std::as_const(in).view(), out, 2, 1, scratch, pyramidKernels(usableIsas().back()), 1);
+  Arena scratch;
+  Image<std::uint16_t> out(2, 1);
+  areaDownscale(std::as_const(in).view(), out.view(), scratch, pyramidKernels(usableIsas().back()), 1);
   EXPECT_EQ(out.row(0)[0], 65535);
   EXPECT_EQ(out.row(0)[1], 65535);
 }
@@ -99,7 +101,7 @@ void expectBicubic(const Padded<float>& in, const Sizes& s) {
   reference::Map twin(s.in_w, s.in_h);
   for (int y = 0; y < s.in_h; ++y)
     for (int x = 0; x < s.in_w; ++x) twin.at(y, x) = in.at(y, x);
-  ScaleScratch scratch;
+  Arena scratch;
   Padded<float> first(s.out_w, s.out_h, -7.0f);
   bicubicUpscale(in.view(), first.view(), scratch, pyramidKernels(Isa::kScalar), 1);
   for (int y = 0; y < s.out_h; ++y)
@@ -142,7 +144,7 @@ TEST(BicubicUpscale, KeepsConstantsAndCentredRamps) {
   Padded<float> constant(9, 7, 0.0f), ramp(9, 7, 0.0f);
   constant.fill([](int, int, int) { return 12.5f; });
   ramp.fill([](int, int x, int) { return 4.0f * (static_cast<float>(x) + 0.5f); });
-  ScaleScratch scratch;
+  Arena scratch;
   Padded<float> out(36, 28, 0.0f);
   bicubicUpscale(constant.view(), out.view(), scratch, pyramidKernels(Isa::kScalar), 1);
   for (int x = 0; x < 36; ++x) EXPECT_NEAR(out.at(13, x), 12.5f, 1e-5);

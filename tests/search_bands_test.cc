@@ -50,12 +50,14 @@ class Planner {
     settings.mask = maskView(mask);
     settings.isa = chooseIsa("");
     settings.threads = threads;
+    settings.scratch = &scratch_;
     const std::span<const SearchBand> bands = bands_.plan(input_.views(), settings);
     return {bands.begin(), bands.end()};
   }
 
  private:
   InputPair input_;
+  Arena scratch_;
   SearchBands bands_;
 };
 
@@ -206,6 +208,8 @@ TEST(SparseStage, BandsOfTheWholeRangeHardlyChangeTheMap) {
   s.match.disparities = 64;
   s.isa = chooseIsa("");
   s.threads = 2;
+  Arena scratch;
+  s.scratch = &scratch;
   SparseStage whole, once, twice;
   StageClock untimed;
   whole.run(input.views(), s, untimed);

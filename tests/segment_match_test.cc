@@ -1,6 +1,7 @@
 #include "pyramid/segment_match.h"
 
 #include <numeric>
+#include <vector>
 
 #include "pyramid/scale.h"
 #include "tests/pyramid_support.h"
@@ -91,14 +92,14 @@ struct Walls {
       labels[static_cast<std::size_t>(i)] = i % columns * kWidth / columns >= kSeam;
     const Padded<float> disparity = Padded<float>(kWidth, kHeight, 0).fill([](int, int, int) { return 1; });
     const Padded<std::uint8_t> state = Padded<std::uint8_t>(kWidth, kHeight, 0);
-    cells.count(disparity.view(), state.view(), columns, rows, pyramidKernels(Isa::kScalar), 1);
-    cells.group(labels, 2);
+    cells.count(disparity.view(), state.view(), columns, rows, pyramidKernels(Isa::kScalar), arena, 1);
+    cells.group(labels.data(), 2);
   }
-  Segment wall(int i) const { return {cells.segment(i), cells, labels}; }
+  Segment wall(int i) const { return {cells.segment(i), cells, labels.data()}; }
   SegmentMatch prepared(int min_disparity, int disparities, Isa isa = usableIsas().back(),
                         int threads = 1) const {
     SegmentMatch match;
-    match.prepare(left.view(), right.view(), min_disparity, disparities, pyramidKernels(isa), threads);
+    match.prepare(left.view(), right.view(), min_disparity, disparities, pyramidKernels(isa), arena, threads);
     return match;
   }
   // At least 4 px from the seam, in whole cells.
@@ -113,7 +114,8 @@ struct Walls {
   }
 
   Padded<std::uint8_t> left{kWidth, kHeight, 3}, right{kWidth, kHeight, 3};
-  Buffer<std::int32_t> labels;
+  std::vector<std::int32_t> labels;
+  mutable Arena arena;
   SegmentCells cells;
 };
 

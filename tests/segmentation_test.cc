@@ -46,12 +46,13 @@ void expectTwin(const Padded<std::uint8_t>& image, float k, int min_size, const 
   };
   const std::vector<int> expected =
       renumbered(reference::segment(image.width(), image.height(), weight, k, min_size));
-  SortedEdges edges;
-  SegmentationScratch scratch;
-  Buffer<std::int32_t> labels;
+  Arena arena;
+  std::vector<std::int32_t> labels(expected.size());
   forEachSetting([&](const PyramidKernels& kernels, int threads) {
-    edges.build(image.guide(), kernels, threads);
-    const int count = segment(edges, {k, min_size}, labels, scratch);
+    const Arena::Scope scope(arena);
+    SortedEdges edges;
+    edges.build(image.guide(), kernels, arena, threads);
+    const int count = segment(edges, {k, min_size}, labels.data(), SegmentationScratch(edges, arena));
     ASSERT_EQ(count, *std::max_element(expected.begin(), expected.end()) + 1) << text;
     for (std::size_t i = 0; i < expected.size(); ++i)
       ASSERT_EQ(labels[i], expected[i]) << text << " at pixel " << i;
@@ -81,11 +82,11 @@ TEST(Segmentation, FollowsRampsAndAdaptsToTexture) {
     if (x < 60) return static_cast<std::uint8_t>(x < 45 ? 200 : 220);  // flat, a step of 20
     return static_cast<std::uint8_t>(120 + random() % 40);             // texture, with steps of up to 39
   });
+  Arena arena;
   SortedEdges edges;
-  SegmentationScratch scratch;
-  Buffer<std::int32_t> labels;
-  edges.build(image.guide(), pyramidKernels(Isa::kScalar), 1);
-  segment(edges, {900, 20}, labels, scratch);
+  std::vector<std::int32_t> labels(90 * 30);
+  edges.build(image.guide(), pyramidKernels(Isa::kScalar), arena, 1);
+  segment(edges, {900, 20}, labels.data(), SegmentationScratch(edges, arena));
   const auto at = [&](int y, int x) { return labels[static_cast<std::size_t>(y * 90 + x)]; };
   EXPECT_EQ(at(0, 5), at(29, 25));
   EXPECT_NE(at(15, 40), at(15, 50));
@@ -97,20 +98,22 @@ TEST(Segmentation, FollowsRampsAndAdaptsToTexture) {
 }
 
 TEST(Segmentation, ScratchServesImagesOfAnySizeAndManyGranularities) {
-  SortedEdges reused_edges;
-  SegmentationScratch reused;
-  Buffer<std::int32_t> labels, fresh_labels;
+  Arena arena;
   const PyramidKernels& kernels = pyramidKernels(Isa::kScalar);
   for (const auto& [width, height] : {std::pair(64, 40), std::pair(17, 9), std::pair(80, 50)}) {
     const Padded<std::uint8_t> image = makeImage(width, height, 3, Fill::kPatches, 8);
-    reused_edges.build(image.guide(), kernels, 1);
+    std::vector<std::int32_t> labels(static_cast<std::size_t>(width * height)), fresh_labels = labels;
+    const Arena::Scope scope(arena);
+    SortedEdges reused_edges;
+    reused_edges.build(image.guide(), kernels, arena, 1);
+    const SegmentationScratch reused(reused_edges, arena);
     for (float k : {400.0f, 10.0f, 90.0f}) {
+      Arena fresh;
       SortedEdges edges;
-      SegmentationScratch scratch;
-      edges.build(image.guide(), kernels, 1);
-      const int count = segment(edges, {k, 5}, fresh_labels, scratch);
-      ASSERT_EQ(segment(reused_edges, {k, 5}, labels, reused), count);
-      for (int i = 0; i < width * height; ++i) ASSERT_EQ(labels[i], fresh_labels[i]);
+      edges.build(image.guide(), kernels, fresh, 1);
+      const int count = segment(edges, {k, 5}, fresh_labels.data(), SegmentationScratch(edges, fresh));
+      ASSERT_EQ(segment(reused_edges, {k, 5}, labels.data(), reused), count);
+      ASSERT_EQ(labels, fresh_labels);
     }
   }
 }

@@ -12,8 +12,10 @@
 
 #include "core/cpu.h"
 #include "pomona/pixel_state.h"
+#include "sgm/census.h"
 #include "sgm/matcher.h"
 #include "sgm/mutual_information.h"
+#include "sgm/sobel.h"
 
 namespace pomona {
 namespace {
@@ -93,6 +95,17 @@ struct WinnerMaps {
          {&index, &best, &below, &above, &second, &right_index, &right_best, &right_below, &right_above})
       map->resize(width, height);
   }
+  bool operator==(const WinnerMaps& other) const {
+    const auto same = [](const Image<std::uint16_t>& a, const Image<std::uint16_t>& b) {
+      for (int y = 0; y < a.height(); ++y)
+        if (!std::equal(a.row(y), a.row(y) + a.width(), b.row(y))) return false;
+      return true;
+    };
+    return same(index, other.index) && same(best, other.best) && same(below, other.below) &&
+           same(above, other.above) && same(second, other.second) && same(right_index, other.right_index) &&
+           same(right_best, other.right_best) && same(right_below, other.right_below) &&
+           same(right_above, other.right_above);
+  }
   void take(int y, const WinnerRow& w) {
     const auto copy = [&](const std::uint16_t* from, Image<std::uint16_t>& to) {
       std::copy_n(from, to.width(), to.row(y));
@@ -105,14 +118,14 @@ struct WinnerMaps {
 
 /// Both memory modes, which must agree with the textbook and so with each other.
 template <typename Check>
-void aggregate(const MatchingCostRows& cost, const ColorSteps& steps, const AggregationOptions& options,
-               const SgmKernels& kernels, int threads, Check&& check) {
+void aggregateBoth(const MatchingCostRows& cost, const ColorSteps& steps, const AggregationOptions& options,
+                   const SgmKernels& kernels, int threads, Check&& check) {
   for (MemoryMode memory : {MemoryMode::kSpeed, MemoryMode::kLow}) {
-    Aggregator aggregator;
+    Arena scratch;
     WinnerMaps winners(cost.width(), cost.height());
-    aggregator.run(
+    aggregate(
         cost, steps, options, memory, kernels, [&](int y, const WinnerRow& row) { winners.take(y, row); },
-        threads);
+        scratch, threads);
     check(winners, memory == MemoryMode::kLow ? ", low memory" : "");
   }
 }
@@ -162,18 +175,18 @@ void compareWithTextbook(const Setup& s) {
   for (Isa isa : usableIsas())
     for (int threads : {1, 2, 7}) {
       const SgmKernels& kernels = sgmKernels(isa);
-      CensusTransform<T> transform;
-      CensusPlanes left, right;
-      transform.compute(pair.left.view(), s.cost, left, kernels, threads);
-      transform.compute(pair.right.view(), s.cost, right, kernels, threads);
-      ColorSteps steps;
-      steps.compute(colorView(guide), kernels, threads);
+      Arena arena;
+      const CensusPlanes left = computeCensus<T>(pair.left.view(), s.cost, kernels, arena, threads);
+      const CensusPlanes right = computeCensus<T>(pair.right.view(), s.cost, kernels, arena, threads);
+      const ColorSteps steps(colorView(guide), kernels);
       MatchingCostRows cost;
-      cost.prepareCensus({&left, {}, {}}, {&right, {}, {}}, maximumCost(s.cost),
-                         makeRange(s.min_disparity, s.disparities, kernels), kernels, threads);
-      aggregate(cost, steps, s.aggregation, kernels, threads, [&](const WinnerMaps& got, const char* memory) {
-        expectEqual(got, want, describe(s, isa, threads) + memory);
-      });
+      cost.startCensus({&left, {}, {}}, maximumCost(s.cost),
+                       makeRange(s.min_disparity, s.disparities, kernels), kernels, arena);
+      cost.setRight({&right, {}, {}}, threads);
+      aggregateBoth(cost, steps, s.aggregation, kernels, threads,
+                    [&](const WinnerMaps& got, const char* memory) {
+                      expectEqual(got, want, describe(s, isa, threads) + memory);
+                    });
       if (testing::Test::HasFatalFailure()) return;
     }
 }
@@ -257,27 +270,27 @@ TEST(Sgm, BlendedCostWithSupportEqualsTextbook) {
         for (Isa isa : usableIsas())
           for (int threads : {1, 2}) {
             const SgmKernels& kernels = sgmKernels(isa);
-            CensusTransform<std::uint8_t> transform;
+            Arena arena;
             CensusPlanes codes[2];
-            SobelFilter filter;
-            Image<std::uint8_t> sobel[2];
+            ImageView<std::uint8_t> sobel[2];
             const ImageView<const std::uint8_t> gray[2] = {pair.left.view(), pair.right.view()};
             for (int i = 0; i < 2; ++i) {
-              transform.compute(gray[i], MatchingCost::kBlended, codes[i], kernels, threads);
-              filter.compute(gray[i], sobel[i], kernels, threads);
+              codes[i] = computeCensus(gray[i], MatchingCost::kBlended, kernels, arena, threads);
+              sobel[i] = computeSobel(gray[i], kernels, arena, threads);
             }
-            ColorSteps steps;
-            steps.compute(colorView(guide), kernels, threads);
+            const ColorSteps steps(colorView(guide), kernels);
             MatchingCostRows cost;
-            cost.prepareBlended({&codes[0], sobel[0].view(), gray[0]}, {&codes[1], sobel[1].view(), gray[1]},
-                                45, makeRange(from, disparities, kernels), kernels, threads);
-            cost.prepareSupport(steps, step, threads);
-            aggregate(cost, steps, kSoft, kernels, threads, [&](const WinnerMaps& got, const char* memory) {
-              expectEqual(got, want,
-                          "blended, " + std::string(name(isa)) + " support " + std::to_string(step) +
-                              " content " + std::to_string(static_cast<int>(content)) + " width " +
-                              std::to_string(width) + memory);
-            });
+            cost.startBlended({&codes[0], sobel[0], gray[0]}, 45, makeRange(from, disparities, kernels),
+                              kernels, arena);
+            cost.setRight({&codes[1], sobel[1], gray[1]}, threads);
+            cost.prepareSupport(steps, step, arena, threads);
+            aggregateBoth(
+                cost, steps, kSoft, kernels, threads, [&](const WinnerMaps& got, const char* memory) {
+                  expectEqual(got, want,
+                              "blended, " + std::string(name(isa)) + " support " + std::to_string(step) +
+                                  " content " + std::to_string(static_cast<int>(content)) + " width " +
+                                  std::to_string(width) + memory);
+                });
             if (testing::Test::HasFatalFailure()) return;
           }
       }
@@ -300,13 +313,13 @@ TEST(Sgm, TableCostEqualsTextbook) {
        }});
   for (Isa isa : usableIsas()) {
     const SgmKernels& kernels = sgmKernels(isa);
-    ColorSteps steps;
-    steps.compute(gray, kernels, 1);
+    Arena arena;
+    const ColorSteps steps(gray, kernels);
     MatchingCostRows cost;
-    cost.prepareTable({nullptr, {}, pair.left.view()}, {nullptr, {}, pair.right.view()},
-                      std::span<const std::uint8_t, 65536>(table), 127, makeRange(-3, 37, kernels), kernels,
-                      1);
-    aggregate(cost, steps, o, kernels, 2, [&](const WinnerMaps& got, const char* memory) {
+    cost.startTable({nullptr, {}, pair.left.view()}, std::span<const std::uint8_t, 65536>(table), 127,
+                    makeRange(-3, 37, kernels), kernels, arena);
+    cost.setRight({nullptr, {}, pair.right.view()}, 1);
+    aggregateBoth(cost, steps, o, kernels, 2, [&](const WinnerMaps& got, const char* memory) {
       expectEqual(got, want, "table cost, isa " + std::string(name(isa)) + memory);
     });
   }
@@ -340,20 +353,73 @@ TEST(Sgm, PriorAddsItsRampToTheCost) {
        }});
   for (Isa isa : usableIsas()) {
     const SgmKernels& kernels = sgmKernels(isa);
-    CensusTransform<std::uint8_t> transform;
-    CensusPlanes left, right;
-    transform.compute(pair.left.view(), MatchingCost::kCensus5x5, left, kernels, 2);
-    transform.compute(pair.right.view(), MatchingCost::kCensus5x5, right, kernels, 2);
-    ColorSteps steps;
-    steps.compute(colorView(guide), kernels, 2);
+    Arena arena;
+    const auto codesOf = [&](const Image<std::uint8_t>& gray) {
+      return computeCensus<std::uint8_t>(gray.view(), MatchingCost::kCensus5x5, kernels, arena, 2);
+    };
+    const CensusPlanes left = codesOf(pair.left), right = codesOf(pair.right);
+    const ColorSteps steps(colorView(guide), kernels);
     MatchingCostRows cost;
-    cost.prepareCensus({&left, {}, {}}, {&right, {}, {}}, 24, makeRange(from, disparities, kernels), kernels,
-                       2);
-    cost.preparePrior(map.view(), weight, reach, 2);
-    aggregate(cost, steps, kSoft, kernels, 2, [&](const WinnerMaps& got, const char* memory) {
+    cost.startCensus({&left, {}, {}}, 24, makeRange(from, disparities, kernels), kernels, arena);
+    cost.setRight({&right, {}, {}}, 2);
+    cost.preparePrior(map.view(), weight, reach, arena, 2);
+    aggregateBoth(cost, steps, kSoft, kernels, 2, [&](const WinnerMaps& got, const char* memory) {
       expectEqual(got, want, "prior, isa " + std::string(name(isa)) + memory);
     });
   }
+}
+
+/// The winners of a noisy pair that is large enough for several groups of rows and tiles of columns.
+WinnerMaps winnersOf(const MatchOptions& options, Isa isa, int threads) {
+  const int width = 215, height = 61;
+  const TestPair<std::uint8_t> pair = makePair<std::uint8_t>(width, height, Content::kShifted);
+  const Image<std::uint8_t> guide = makeGuide(width, height);
+  WinnerMaps winners(width, height);
+  SgmMatcher matcher;
+  Arena scratch;
+  matcher.findWinners(
+      {pair.left.view(), pair.right.view(), {}, {}, colorView(guide)}, options, {}, sgmKernels(isa),
+      [&](int y, const WinnerRow& row) { winners.take(y, row); }, scratch, threads);
+  return winners;
+}
+
+TEST(Sgm, IsTheSameForAnyNumberOfThreads) {
+  const MatchOptions cheap{-3, 70, {MatchingCost::kCensus5x5, 0}, {8, 5, 39, 10}, {}};
+  MatchOptions stored = cheap, wide = cheap, few_paths = cheap;
+  stored.cost = {MatchingCost::kBlended, 8};
+  wide.aggregation.p2 = 100;
+  few_paths.aggregation.paths = 4;
+  for (Isa isa : usableIsas())
+    for (MatchOptions o : {cheap, stored, wide, few_paths}) {
+      o.memory = MemoryMode::kSpeed;
+      const WinnerMaps want = winnersOf(o, isa, 1);
+      for (MemoryMode memory : {MemoryMode::kSpeed, MemoryMode::kLow})
+        for (int threads : {1, 2, 3, 4, 7, 8, 16}) {
+          o.memory = memory;
+          const WinnerMaps got = winnersOf(o, isa, threads);
+          ASSERT_TRUE(got == want) << name(isa) << " cost " << static_cast<int>(o.cost.cost) << " P2 "
+                                   << o.aggregation.p2 << " paths " << o.aggregation.paths << " memory "
+                                   << static_cast<int>(memory) << " threads " << threads;
+        }
+    }
+}
+
+TEST(Sgm, LowMemoryKeepsFarLess) {
+  const int width = 64, height = 600;
+  const TestPair<std::uint8_t> pair = makePair<std::uint8_t>(width, height, Content::kNoise);
+  const Image<std::uint8_t> guide = makeGuide(width, height);
+  const auto bytesOf = [&](MemoryMode memory) {
+    MatchOptions o{0, 64, {MatchingCost::kCensus5x5, 0}, {8, 5, 39, 10}, {}, memory};
+    SgmMatcher matcher;
+    Arena scratch;
+    for (int frame = 0; frame < 2; ++frame)  // the first makes do with pieces
+      matcher.findWinners(
+          {pair.left.view(), pair.right.view(), {}, {}, colorView(guide)}, o, {},
+          sgmKernels(usableIsas().back()), [](int, const WinnerRow&) {}, scratch, 1);
+    return scratch.capacity();
+  };
+  // The sums of 600 rows against checkpoints and sums that are worth 2 x 43 rows, and what both need.
+  EXPECT_LT(2 * bytesOf(MemoryMode::kLow), bytesOf(MemoryMode::kSpeed));
 }
 
 TEST(Sgm, MatcherRefinesAndMarksAmbiguousPixels) {
@@ -363,12 +429,13 @@ TEST(Sgm, MatcherRefinesAndMarksAmbiguousPixels) {
   const reference::Match want = reference::matchCensus<std::uint8_t>(
       pair.left.view(), pair.right.view(), guide, o.cost.cost, o.aggregation, 0, 24);
   SgmMatcher matcher;
+  Arena scratch;
   for (SubpixelMethod method :
        {SubpixelMethod::kNone, SubpixelMethod::kParabola, SubpixelMethod::kEquiangular}) {
     o.winner.subpixel = method;
     MatchMaps maps;
     matcher.match({pair.left.view(), pair.right.view(), {}, {}, guide}, o, {},
-                  sgmKernels(usableIsas().back()), maps, 2);
+                  sgmKernels(usableIsas().back()), maps, scratch, 2);
     int ambiguous = 0;
     for (int y = 0; y < 16; ++y)
       for (int x = 0; x < 60; ++x) {
@@ -383,8 +450,8 @@ TEST(Sgm, MatcherRefinesAndMarksAmbiguousPixels) {
         EXPECT_NEAR(maps.disparity.row(y)[x], expected, 1e-5);
         const bool unique = best <= 0.8 * want.second[i] + 1e-9;
         EXPECT_EQ(maps.state.row(y)[x] == static_cast<std::uint8_t>(PixelState::kMeasured), unique);
-        EXPECT_EQ(maps.margin.row(y)[x], want.second[i] - best);
-        EXPECT_EQ(maps.curvature.row(y)[x], std::max(0.0, want.below[i] + want.above[i] - 2 * best));
+        EXPECT_EQ(maps.margin(y)[x], want.second[i] - best);
+        EXPECT_EQ(maps.curvature(y)[x], std::max(0.0, want.below[i] + want.above[i] - 2 * best));
         ambiguous += !unique;
         if (want.right_index[i] < 0) {
           EXPECT_TRUE(std::isnan(maps.right_disparity.row(y)[x]));

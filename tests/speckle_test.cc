@@ -13,7 +13,7 @@ using testing::kUnknown;
 using testing::Map;
 using testing::sameBits;
 
-void expectTwin(const Map<float>& map, int min_size, float max_step, SpeckleScratch& scratch) {
+void expectTwin(const Map<float>& map, int min_size, float max_step, Arena& scratch) {
   const Map<std::uint8_t> state = testing::stateOf(map);
   Map<float> expected = map;
   Map<std::uint8_t> expected_state = state;
@@ -34,7 +34,7 @@ void expectTwin(const Map<float>& map, int min_size, float max_step, SpeckleScra
 }
 
 TEST(RemoveSpeckles, EqualsItsTwinOnRandomMaps) {
-  SpeckleScratch scratch;  // kept from size to size, as an engine does
+  Arena scratch;  // kept from size to size, as an engine does
   for (int width : testing::kWidths)
     for (int height : {1, 33, 70})
       for (double unknown : {0.05, 0.45}) {
@@ -45,7 +45,7 @@ TEST(RemoveSpeckles, EqualsItsTwinOnRandomMaps) {
 }
 
 TEST(RemoveSpeckles, EqualsItsTwinOnExtremeFills) {
-  SpeckleScratch scratch;
+  Arena scratch;
   for (float fill : {kUnknown, 0.0f, -7.5f, 1e30f})
     for (int min_size : {70 * 90, 70 * 90 + 1}) expectTwin(Map<float>(70, 90, fill), min_size, 1, scratch);
 }
@@ -62,7 +62,7 @@ TEST(RemoveSpeckles, FollowsWindingComponents) {
       if (y % 2 == 0 || turn) serpentine.at(y, x) = 3.0f, ++serpentine_size;
       if (x % 2 == 0 || y == kSize - 1) comb.at(y, x) = 3.0f, ++comb_size;
     }
-  SpeckleScratch scratch;
+  Arena scratch;
   for (int extra : {0, 1}) {
     expectTwin(serpentine, serpentine_size + extra, 1, scratch);
     expectTwin(comb, comb_size + extra, 1, scratch);
@@ -78,7 +78,7 @@ TEST(RemoveSpeckles, HandlesAMapOfSinglePixels) {
   Map<float> map(129, 70, 0.0f);
   for (int y = 0; y < map.height; ++y)
     for (int x = 0; x < map.width; ++x) map.at(y, x) = (x + y) % 2 ? 10.0f : 0.0f;
-  SpeckleScratch scratch;
+  Arena scratch;
   for (float step : {9.0f, 10.0f}) expectTwin(map, 2, step, scratch);
 }
 

@@ -76,7 +76,7 @@ ScaleTimes timeScale(const Arguments& arguments, const cv::Mat& full_left, const
   const FilterKernels& kernels = filterKernels(chooseIsa(""));
   const GuideView guide{left.ptr(), left.cols, left.rows, left.channels(),
                         static_cast<std::ptrdiff_t>(left.step[0])};
-  BilateralScratch scratch;
+  Arena scratch;
   Image<float> completed(left.cols, left.rows);
 
   ScaleTimes times{left.size(), options.num_disparities, {}, {}};

@@ -114,6 +114,8 @@ void measurePlan(const Case& c, int rounds, Values& values) {
   settings.match.disparities = c.disparities;
   settings.isa = chooseIsa("");
   settings.threads = 1;
+  Arena scratch;
+  settings.scratch = &scratch;
   SearchBands planner;
   const SearchBand whole{0, input.height(), 0, c.disparities};
   std::span<const SearchBand> bands;

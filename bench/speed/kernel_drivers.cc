@@ -8,6 +8,7 @@
 #include "engine/sparse_stage.h"
 #include "pomona/engine.h"
 #include "pomona/pixel_state.h"
+#include "pyramid/segmentation.h"
 
 namespace pomona {
 namespace {
@@ -42,7 +43,7 @@ KernelDriver matchDriver(const char* name, const Options& o, SubpixelMethod subp
     MatchInput in = m.input.views();
     MatchOptions match{0, m.size.disparities, o.cost, o.aggregation, {subpixel, 0}};
     if (change) change(m, in, match);
-    m.matcher.match(in, match, m.cost_table, tables.sgm, m.matched, 1);
+    m.matcher.match(in, match, m.cost_table, tables.sgm, m.matched, m.scratch, 1);
   };
   return {name, 1, run, o.cost, o.aggregation};
 }
@@ -79,54 +80,54 @@ void runChecks(KernelMaterial& m, const KernelTables& tables) {
   for (int y = 0; y < m.size.height; ++y)
     std::fill_n(m.state.row(y), m.size.width, static_cast<std::uint8_t>(PixelState::kMeasured));
   leftRightCheck(m.disparity.view(), m.state.view(), m.right_disparity.view(),
-                 m.options.validation.left_right_px, 0, m.size.disparities, m.left_right, tables.filters, 1);
+                 m.options.validation.left_right_px, 0, m.size.disparities, m.scratch, tables.filters, 1);
   removeSpeckles(m.disparity.view(), m.state.view(), m.options.validation.speckle_size_px,
-                 m.options.validation.speckle_step_px, m.speckle, tables.filters, 1);
+                 m.options.validation.speckle_step_px, m.scratch, tables.filters, 1);
 }
 
 void runTrust(KernelMaterial& m, const KernelTables& tables) {
   MatchMaps& maps = m.trusted;
-  if (maps.disparity.width() == 0) {
-    maps.resize(m.size.width, m.size.height);
-    copyPixels<float>(m.dense.view(), maps.disparity);
-    copyPixels<float>(m.right_disparity.view(), maps.right_disparity);
-    for (int y = 0; y < m.size.height; ++y) {
-      std::fill_n(maps.margin.row(y), m.size.width, std::uint16_t{100});
-      std::fill_n(maps.curvature.row(y), m.size.width, std::uint16_t{100});
-      std::fill_n(maps.state.row(y), m.size.width, static_cast<std::uint8_t>(PixelState::kMeasured));
-    }
+  maps.resize(m.size.width, m.size.height);
+  copyPixels<float>(m.dense.view(), maps.disparity);
+  copyPixels<float>(m.right_disparity.view(), maps.right_disparity);
+  for (int y = 0; y < m.size.height; ++y) {
+    std::fill_n(maps.margin(y), m.size.width, std::uint16_t{100});
+    std::fill_n(maps.curvature(y), m.size.width, std::uint16_t{100});
+    std::fill_n(maps.state.row(y), m.size.width, static_cast<std::uint8_t>(PixelState::kMeasured));
   }
-  m.trust.estimate(maps, 8 * maximumCost(m.options.cost.cost), tables.filters, 1);
+  m.trust.estimate(maps, 8 * maximumCost(m.options.cost.cost), tables.filters, m.scratch, 1);
 }
 
 void runMedians(KernelMaterial& m, const KernelTables& tables) {
   for (int size : {3, 5})
-    medianFilter(m.sparse_disparity.view(), m.disparity.view(), size, tables.filters, m.median, 1);
+    medianFilter(m.sparse_disparity.view(), m.disparity.view(), size, tables.filters, m.scratch, 1);
 }
 
 void runBilateral(KernelMaterial& m, const KernelTables& tables) {
   m.quarter_disparity.resize(m.quarter_sparse.width(), m.quarter_sparse.height());
   jointBilateral(m.quarter_sparse.view(), m.quarterGuide(),
                  {m.options.completion.sigma_space_px, m.options.completion.sigma_range},
-                 m.quarter_disparity.view(), m.bilateral, tables.filters, 1);
+                 m.quarter_disparity.view(), m.scratch, tables.filters, 1);
 }
 
 void runRefinement(KernelMaterial& m, const KernelTables& tables) {
-  weightedMedian(m.dense.view(), m.guide(), m.disparity.view(), m.weighted_median, tables.filters, 1);
+  weightedMedian(m.dense.view(), m.guide(), m.disparity.view(), m.scratch, tables.filters, 1);
   for (int radius : {2, 3})
-    refinePlanes(m.dense.view(), m.guide(), radius, m.disparity.view(), m.plane_refine, tables.filters, 1);
+    refinePlanes(m.dense.view(), m.guide(), radius, m.disparity.view(), m.scratch, tables.filters, 1);
 }
 
 void runScaling(KernelMaterial& m, const KernelTables& tables) {
   const int width = m.quarter_dense.width(), height = m.quarter_dense.height();
-  areaDownscale(m.guide(), m.small, width, height, m.scale, tables.pyramid, 1);
-  areaDownscale(m.left16.view(), m.small16, width, height, m.scale, tables.pyramid, 1);
-  bicubicUpscale(m.quarter_dense.view(), m.disparity.view(), m.scale, tables.pyramid, 1);
+  m.small.resize(3 * width, height);
+  m.small16.resize(width, height);
+  areaDownscale(m.guide(), m.small.view(), m.scratch, tables.pyramid, 1);
+  areaDownscale(m.left16.view(), m.small16.view(), m.scratch, tables.pyramid, 1);
+  bicubicUpscale(m.quarter_dense.view(), m.disparity.view(), m.scratch, tables.pyramid, 1);
 }
 
 void runFusion(KernelMaterial& m, const KernelTables& tables) {
   const int levels = m.options.completion.pyramid_levels;
-  fuseEqual(m.dense.view(), m.dense.view(), levels, m.disparity.view(), m.fusion, tables.pyramid, 1);
+  fuseEqual(m.dense.view(), m.dense.view(), levels, m.disparity.view(), m.scratch, tables.pyramid, 1);
 }
 
 void runFilling(KernelMaterial& m, const KernelTables& tables) {
@@ -137,16 +138,17 @@ void runFilling(KernelMaterial& m, const KernelTables& tables) {
                   .right = m.input.views().right,
                   .right_disparity = m.right_disparity.view(),
                   .max_disparity = static_cast<float>(m.size.disparities - 1)},
-                 m.disparity.view(), m.state.view(), m.plane_fill, tables.pyramid, 1);
+                 m.disparity.view(), m.state.view(), m.scratch, tables.pyramid, 1);
   const auto nothing = [] { return ImageView<const float>(); };
   fillHoles({.guide = m.guide(), .right_disparity = m.right_disparity.view(), .coarse = nothing},
-            m.disparity.view(), m.state.view(), m.hole_fill, tables.pyramid, 1);
+            m.disparity.view(), m.state.view(), m.scratch, tables.pyramid, 1);
 }
 
 /// Of gray images; runFilling() shows what colours take.
 void runGraySegments(KernelMaterial& m, const KernelTables& tables) {
   const ImageView<const std::uint8_t> gray = m.input.views().left;
-  m.edges.build({gray.data, gray.width, gray.height, 1, gray.stride}, tables.pyramid, 1);
+  const Arena::Scope scope(m.scratch);
+  SortedEdges().build({gray.data, gray.width, gray.height, 1, gray.stride}, tables.pyramid, m.scratch, 1);
 }
 
 }  // namespace
@@ -173,7 +175,8 @@ KernelMaterial::KernelMaterial(const FrameSize& frame_size, const BenchmarkInput
       .mutual_information = {},
       .mask = {},
       .isa = isa,
-      .threads = 1};
+      .threads = 1,
+      .scratch = &scratch};
   settings.validation.left_right_px = options.completion.seed_left_right_px;
   settings.validation.speckle_size_px = options.completion.seed_speckle_size_px;
   SparseStage sparse;
@@ -186,8 +189,8 @@ KernelMaterial::KernelMaterial(const FrameSize& frame_size, const BenchmarkInput
 
   constexpr int kFactor = 4;
   const int width = scaledLength(size.width, kFactor), height = scaledLength(size.height, kFactor);
-  ScaleScratch scratch;
-  areaDownscale(guide(), quarter_guide, width, height, scratch, pyramidKernels(isa), 1);
+  quarter_guide.resize(3 * width, height);
+  areaDownscale(guide(), quarter_guide.view(), scratch, pyramidKernels(isa), 1);
   for (auto [from, to] : {std::pair{&sparse_disparity, &quarter_sparse}, std::pair{&dense, &quarter_dense}}) {
     to->resize(width, height);
     for (int y = 0; y < height; ++y)

@@ -68,17 +68,7 @@ struct KernelMaterial {
   Image<std::uint16_t> small16;
   MatchMaps trusted;
   Trust trust;
-  LeftRightScratch left_right;
-  SpeckleScratch speckle;
-  MedianScratch median;
-  BilateralScratch bilateral;
-  WeightedMedianScratch weighted_median;
-  GuidedPlane plane_refine;
-  ScaleScratch scale;
-  FusionScratch fusion;
-  PlaneFillScratch plane_fill;
-  HoleFillScratch hole_fill;
-  SortedEdges edges;
+  Arena scratch;
 };
 
 struct KernelDriver {

@@ -9,6 +9,9 @@
 #include "engine/input.h"
 #include "engine/stage_clock.h"
 #include "pomona/engine.h"
+#include "sgm/aggregation.h"
+#include "sgm/census.h"
+#include "sgm/sobel.h"
 
 namespace pomona {
 namespace {
@@ -39,16 +42,9 @@ void measurePreset(benchmark::State& state, const Options& options, const ImageP
 /// SgmMatcher::match() in pieces, and the coarse maps.
 struct MatchingParts {
   InputPair input;
-  CensusTransform<std::uint8_t> census;
-  SobelFilter sobel;
-  struct {
-    CensusPlanes census;
-    Image<std::uint8_t> sobel;
-  } views[2];
-  ColorSteps steps;
   MatchingCostRows cost;
-  Aggregator aggregator;
   CoarseStage coarse;
+  Arena scratch;
 
   void run(const Options& o, const ImagePair& pair, StageClock& clock);
 };
@@ -61,29 +57,29 @@ void MatchingParts::run(const Options& o, const ImagePair& pair, StageClock& clo
   input.set(pair.left, pair.right, threads);
   clock.lap("input");
   const MatchInput& in = input.views();
+  const Arena::Scope scope(scratch);
+  CensusPlanes census[2];
   MatchingCostRows::Features features[2];
   for (int i = 0; i < 2; ++i) {
-    census.compute(i == 0 ? in.left : in.right, o.cost.cost, views[i].census, kernels, threads);
-    features[i] = {&views[i].census, {}, i == 0 ? in.left : in.right};
+    features[i].gray = i == 0 ? in.left : in.right;
+    census[i] = computeCensus(features[i].gray, o.cost.cost, kernels, scratch, threads);
+    features[i].census = &census[i];
   }
   clock.lap("census");
   if (blended) {
-    for (int i = 0; i < 2; ++i) {
-      sobel.compute(features[i].gray, views[i].sobel, kernels, threads);
-      features[i].sobel = views[i].sobel.view();
-    }
+    for (auto& view : features) view.sobel = computeSobel(view.gray, kernels, scratch, threads);
     clock.lap("Sobel");
   }
-  steps.compute(in.guide, kernels, threads);
-  clock.lap("colour steps");
+  const ColorSteps steps(in.guide, kernels);
   const DisparityRange range = makeRange(o.min_disparity, o.num_disparities, kernels);
-  const auto prepare = blended ? &MatchingCostRows::prepareBlended : &MatchingCostRows::prepareCensus;
-  (cost.*prepare)(features[0], features[1], maximumCost(o.cost.cost), range, kernels, threads);
+  const auto start = blended ? &MatchingCostRows::startBlended : &MatchingCostRows::startCensus;
+  (cost.*start)(features[0], maximumCost(o.cost.cost), range, kernels, scratch);
+  cost.setRight(features[1], threads);
   clock.lap("layout of the right features");
-  cost.prepareSupport(steps, o.cost.support_color_step, threads);
+  cost.prepareSupport(steps, o.cost.support_color_step, scratch, threads);
   if (o.cost.support_color_step > 0) clock.lap("support arms");
   const auto drop = [](int, const WinnerRow&) {};
-  aggregator.run(cost, steps, o.aggregation, MemoryMode::kSpeed, kernels, drop, threads);
+  aggregate(cost, steps, o.aggregation, MemoryMode::kSpeed, kernels, drop, scratch, threads);
   clock.lap("cost and aggregation");
 
   const SparseStage::Settings settings{
@@ -92,7 +88,8 @@ void MatchingParts::run(const Options& o, const ImagePair& pair, StageClock& clo
       .mutual_information = {},
       .mask = {},
       .isa = isa,
-      .threads = threads};
+      .threads = threads,
+      .scratch = &scratch};
   coarse.run(in, settings, o.completion);
   clock.lap("coarse maps (if needed)");
 }

@@ -38,22 +38,22 @@ struct MatchBytes {
 };
 
 Traffic matchTraffic(const MatchBytes& m, MemoryMode memory, int height, double pixels) {
-  constexpr double kSides = 2, kDirections = 4;
-  const double sums = 2 * m.sum * m.lanes;  // written and read
-  const bool low = Aggregator::chooseMemory(memory, m.sum * m.lanes * pixels) == MemoryMode::kLow;
+  constexpr double kSides = 2, kDirections = 4, kGuide = 3;  // a colour image
+  const double sums = 2 * m.sum * m.lanes;                   // written and read
+  const bool low = chooseMemory(memory, m.sum * m.lanes * pixels) == MemoryMode::kLow;
   const double passes = low ? 3 : 2;
-  const double rows_per_checkpoint = std::sqrt(0.5 * height * m.paths / m.sum);
+  const double rows_per_checkpoint = 0.5 * std::sqrt(height * m.paths / m.sum);  // on average
   const double checkpoints = 2 * m.paths * m.lanes / rows_per_checkpoint;
 
   const double features = kSides * m.planes             // written
                           + 2 * m.planes                // the right ones laid out anew
                           + passes * kSides * m.planes  // read by the cost kernel
-                          + kDirections * (1 + passes);
-  const double maps = 4 + 4 + 4 + 1;  // disparities, margin, state
+                          + passes * kGuide;            // for the colour steps
+  const double maps = 4 + 4 + 4 + 1;                    // disparities, margin, state
   const double costs = 2 * m.lanes + (m.supported ? m.supportKernel() : 0);
   Traffic t;
   t.memory = features + maps + (low ? checkpoints : sums);
-  t.rows = passes * (costs + m.pathState()) + 2 * m.lanes + 2 * m.winners();
+  t.rows = passes * (costs + m.pathState() + 2 * kDirections) + 2 * m.lanes + 2 * m.winners();
   if (low) t.rows += sums + m.sum * m.lanes;  // those of the first pass are written for nobody
   return t;
 }

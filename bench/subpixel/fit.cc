@@ -63,9 +63,10 @@ int fit() {
       InputPair input;
       input.set(pair.left.image, pair.right.image, availableThreads());
       SgmMatcher matcher;
+      Arena scratch;
       matcher.findWinners(
           input.views(), {0, kDisparities, options.cost, options.aggregation, options.winner}, {}, kernels,
-          [&](int y, const WinnerRow& winners) { collect(pair, y, winners, samples); }, 1);
+          [&](int y, const WinnerRow& winners) { collect(pair, y, winners, samples); }, scratch, 1);
     }
 
   constexpr int kBins = 20;

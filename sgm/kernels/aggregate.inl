@@ -55,9 +55,15 @@ POMONA_OP void storePixel(std::uint8_t* p, const U8* v, int vectors) {
   for (int j = 0; j < (kVectors ? kVectors : vectors); ++j) simd::store(p + j * simd::kBytes, v[j]);
 }
 
-/// Walks the row in steps of kStep and calls emit(x, cost, left, straight, right, horizontal) with the path
-/// costs of every pixel, and now and then done(x, count) after the last pixel x of `count`. The paths are
-/// updated in place: the one whose predecessor lies behind us is carried in registers.
+/// Whether an earlier stretch of the row has been done.
+template <int kStep>
+POMONA_OP bool isResumed(const AggregateRow& r) {
+  return kStep > 0 ? r.begin > 0 : r.end < r.width;
+}
+
+/// Walks a stretch of the row in steps of kStep and calls emit(x, cost, left, straight, right, horizontal)
+/// with the path costs of every pixel, and now and then done(x, count) after the last pixel x of `count`. The
+/// paths are updated in place: the one whose predecessor lies behind us is carried in registers.
 template <int kVectors, int kStep, bool kDiagonals, bool kCheapCost, typename Emit, typename Done>
 POMONA_OP void sweepRow(const AggregateRow& row, Emit&& emit, Done&& done) {
   const AggregateRow r = row;  // stores of vectors may alias everything but locals
@@ -70,13 +76,21 @@ POMONA_OP void sweepRow(const AggregateRow& row, Emit&& emit, Done&& done) {
   std::uint32_t* minima = r.minima + 4;
   const U8 p1 = simd::broadcast(r.p1);
 
-  std::ptrdiff_t x = kStep > 0 ? 0 : r.width - 1;
+  const int count = r.end - r.begin;
+  std::ptrdiff_t x = kStep > 0 ? r.begin : r.end - 1;
   U8 carried[kN], horizontal[kN], horizontal_minimum = simd::broadcast(0),
                                   carried_minimum = horizontal_minimum;
   for (int j = 0; j < n; ++j)
     carried[j] = horizontal[j] = horizontal_minimum;  // the guard pixel, and a fresh start
+  std::uint8_t* const border_minima = r.border + 2 * pixel;
+  if (isResumed<kStep>(r)) {
+    loadPixel<kVectors>(r.border, carried, n);
+    loadPixel<kVectors>(r.border + pixel, horizontal, n);
+    carried_minimum = simd::load(border_minima);
+    horizontal_minimum = simd::load(border_minima + simd::kBytes);
+  }
 
-  for (int i = 0; i < r.width; ++i, x += kStep) {
+  for (int i = 0; i < count; ++i, x += kStep) {
     if (i > 0 && i % pomona::kWinnerBlock == 0) done(x - kStep, pomona::kWinnerBlock);
     U8 cost[kN], previous[kN], to_behind[kN], to_straight[kN], to_ahead[kN], to_horizontal[kN];
     if constexpr (kCheapCost)
@@ -111,7 +125,13 @@ POMONA_OP void sweepRow(const AggregateRow& row, Emit&& emit, Done&& done) {
     for (int j = 0; j < n; ++j) horizontal[j] = to_horizontal[j];
     emit(x, cost, to_behind, to_straight, to_ahead, to_horizontal);
   }
-  done(x - kStep, (r.width - 1) % pomona::kWinnerBlock + 1);
+  if (r.border) {
+    storePixel<kVectors>(r.border, carried, n);
+    storePixel<kVectors>(r.border + pixel, horizontal, n);
+    simd::store(border_minima, carried_minimum);
+    simd::store(border_minima + simd::kBytes, horizontal_minimum);
+  }
+  done(x - kStep, (count - 1) % pomona::kWinnerBlock + 1);
 }
 
 /// Sum of the sweep's path costs for vector j, modulo 256.
@@ -158,7 +178,7 @@ void firstPass(const AggregateRow& r) {
 template <int kVectors, bool kDiagonals, bool kWide, bool kCheapCost, int kLabelBits>
 void lastPass(const AggregateRow& r, const WinnerRow& w) {
   const int n = kVectors ? kVectors : r.vectors;
-  Winner<kVectors, kLabelBits> winner(w, n, r.width);
+  Winner<kVectors, kLabelBits> winner(w, n, r.width, isResumed<-1>(r));
   sweepRow<kVectors, -1, kDiagonals, kCheapCost>(
       r,
       [&](std::ptrdiff_t x, const U8* c, const U8* b, const U8* s, const U8* a, const U8* h) {
@@ -183,7 +203,7 @@ void lastPass(const AggregateRow& r, const WinnerRow& w) {
         winner.put(x, sums);
       },
       [&](std::ptrdiff_t x, int count) { winner.chooseWinners(static_cast<int>(x) + count - 1, count); });
-  winner.finish();
+  r.begin == 0 ? winner.finish() : winner.suspend();
 }
 
 /// Calls f(number of vectors, whether there are diagonals, wide sums, cheap costs), as constants. Cheap costs

@@ -14,10 +14,20 @@ using pomona::WinnerRow;
 template <int kVectors, int kLabelBits>
 class Winner {
  public:
-  Winner(const WinnerRow& row, int vectors, int width) : row_(row), vectors_(vectors), width_(width) {
+  /// `is_resumed`: goes on where another one was suspended.
+  Winner(const WinnerRow& row, int vectors, int width, bool is_resumed)
+      : row_(row), vectors_(vectors), width_(width) {
     for (int k = 0; k < 2 * vectors; ++k) {
-      right_best_[k] = simd::broadcast16(kNone);
-      right_label_[k] = simd::broadcast16(pomona::kNoIndex);
+      right_best_[k] = is_resumed ? simd::load16(bestBorder(k)) : simd::broadcast16(kNone);
+      right_label_[k] = is_resumed ? simd::load16(labelBorder(k)) : simd::broadcast16(pomona::kNoIndex);
+    }
+  }
+
+  /// Instead of finish(), if pixels are left for another stretch of the row.
+  void suspend() const {
+    for (int k = 0; k < wordVectors(); ++k) {
+      simd::store16(bestBorder(k), right_best_[k]);
+      simd::store16(labelBorder(k), right_label_[k]);
     }
   }
 
@@ -67,6 +77,8 @@ class Winner {
   static constexpr int kLabelMask = (1 << kLabelBits) - 1;
   static constexpr std::uint16_t kNone = 0xFFFF;  // above every sum, packed or not
 
+  std::uint16_t* bestBorder(int k) const { return row_.right_border + k * kWords; }
+  std::uint16_t* labelBorder(int k) const { return bestBorder(wordVectors() + k); }
   POMONA_OP int wordVectors() const { return 2 * (kVectors ? kVectors : vectors_); }
   POMONA_OP void copy(const simd::U16* from, simd::U16* to) const {
     for (int k = 0; k < wordVectors(); ++k) to[k] = from[k];
