@@ -28,6 +28,9 @@ class LogoRange final : public SparseStereoPlugin {
         realParameter("reprojection_px", "How far off a match may be from where the sign has it", 3, 0.1, 50),
         choiceParameter("place_model", "An affine map, then a homography near it; or a homography at once",
                         {"affine-first", "homography"}),
+        realParameter("min_likeness",
+                      "Correlation of the picture with what the view shows at its place; affine-first only",
+                      0.65, -1, 1),
         integerParameter("min_agreeing", "Matches that must agree on the sign's place", 6, 4, 1000),
         realParameter("pair_ratio", "Of the distances between the views' features, at most", 0.85, 0, 1),
         realParameter("max_row_offset_px", "Between the views' features", 2, 0, 50),
@@ -70,6 +73,7 @@ class LogoRange final : public SparseStereoPlugin {
     options.locate.ratio = settings.real("ratio");
     options.locate.reprojection_px = settings.real("reprojection_px");
     if (settings.text("place_model") == "homography") options.locate.model = PlaceModel::kHomography;
+    options.locate.min_likeness = settings.real("min_likeness");
     options.locate.min_agreeing = settings.integer("min_agreeing");
     options.pair_ratio = settings.real("pair_ratio");
     options.max_row_offset_px = settings.real("max_row_offset_px");
