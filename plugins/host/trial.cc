@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,8 +14,8 @@
 namespace pomona {
 namespace {
 
-constexpr char kLived = 'l', kThrew = 't';  // what the child reports begins with
-int report = -1;                            // the child's end of the pipe
+constexpr char kLived = 'l', kThrew = 't', kLeft = 'e';  // what the child reports begins with
+int report = -1;                                         // the child's end of the pipe
 
 [[noreturn]] void leave(char how, const char* what) {
   const std::size_t length = ::strlen(what);
@@ -33,10 +34,16 @@ int report = -1;                            // the child's end of the pipe
   leave(kThrew, "of a type that is no std::exception");
 }
 
+// What exit() calls first: what it would call next waits for threads that a child has not.
+void reportExit(int status, void*) {
+  leave(kLeft, std::to_string(status).c_str());
+}
+
 [[noreturn]] void runChild(int pipe_end, const std::function<void()>& work) {
   constexpr unsigned kLongest_s = 10;
   report = pipe_end;
   std::set_terminate(reportTermination);
+  ::on_exit(reportExit, nullptr);
   ::signal(SIGALRM, SIG_DFL);
   ::alarm(kLongest_s);
   if (const int nowhere = ::open("/dev/null", O_WRONLY); nowhere >= 0) {
@@ -72,6 +79,7 @@ std::string deathBy(const std::function<void()>& work) {
   if (child < 0 || ::waitpid(child, &status, 0) != child) return "";
   if (said.starts_with(kThrew)) return "by an exception: " + said.substr(1);
   if (said.starts_with(kLived)) return "";
+  if (said.starts_with(kLeft)) return "by leaving it with status " + said.substr(1);
   if (WIFEXITED(status)) return "by leaving it with status " + std::to_string(WEXITSTATUS(status));
   const int signal = WTERMSIG(status);
   if (signal == SIGALRM) return "";
