@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -340,6 +341,18 @@ class LogoRangePlugin : public ::testing::Test {
   LoadedPlugin plugin_{POMONA_LOGO_RANGE};
   TemporaryFolder folder_;
 };
+
+TEST_F(LogoRangePlugin, SaysWhatItsFaithfulFeaturesAre) {
+  const std::vector<FeatureKind> kinds = featureKinds();
+  const bool has_surf = std::find(kinds.begin(), kinds.end(), FeatureKind::kSurf128) != kinds.end();
+  const ParameterSet faithful = plugin_.parameterSets().at(0);
+  PluginSettings settings = plugin_.settings();
+  settings.set("variant", "faithful");
+  EXPECT_EQ(settings.text("features"), has_surf ? "surf-128" : "sift");
+  EXPECT_NE(faithful.description.find(has_surf ? "by surf-128" : "by sift in place of surf-128"),
+            std::string::npos)
+      << faithful.description;
+}
 
 TEST_F(LogoRangePlugin, LearnsOnceAndKeepsTheDatabase) {
   const Street s = street(3, 20, signPicture());

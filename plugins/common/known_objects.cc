@@ -18,6 +18,13 @@ std::vector<std::string> featureNames() {
   return names;
 }
 
+const std::string kSubstitute = "sift";
+
+bool isKnown(const std::string& features) {
+  const std::vector<std::string> names = featureNames();
+  return std::find(names.begin(), names.end(), features) != names.end();
+}
+
 // Changes with the settings, and with the files that they name.
 std::string keyOf(const PluginSettings& settings) {
   std::string key = std::to_string(settings.real("picture_sensitivity"));
@@ -44,9 +51,14 @@ std::vector<PluginParameter> KnownObjects::parameters() {
 }
 
 std::vector<std::pair<std::string, std::string>> KnownObjects::faithful(const std::string& features) {
-  const std::vector<std::string> names = featureNames();
-  const bool known = std::find(names.begin(), names.end(), features) != names.end();
-  return {{"features", known ? features : "sift"}, {"views", "frontal"}, {"picture_sensitivity", "1"}};
+  return {{"features", isKnown(features) ? features : kSubstitute},
+          {"views", "frontal"},
+          {"picture_sensitivity", "1"}};
+}
+
+std::string KnownObjects::faithfulFeatures(const std::string& features) {
+  if (isKnown(features)) return "by " + features;
+  return "but by " + kSubstitute + " in place of " + features + ", which this build is without";
 }
 
 const ObjectDatabase& KnownObjects::open(const PluginSettings& settings) {

@@ -18,6 +18,8 @@ class KnownObjects {
   static std::vector<PluginParameter> parameters();
   /// What makes them those of a published method: one view, `features` (SIFT where this build lacks them).
   static std::vector<std::pair<std::string, std::string>> faithful(const std::string& features);
+  /// What people are to know of that: "by surf-64", or that this build has SIFT in its place.
+  static std::string faithfulFeatures(const std::string& features);
 
   /// Throws as openObjects() does, and std::runtime_error if save_objects cannot be written.
   const ObjectDatabase& open(const PluginSettings& settings);

@@ -59,7 +59,9 @@ class LogoRange final : public SparseStereoPlugin {
                                  {"pair_ratio", "0.7"},
                                  {"sign_ranging", "mean"},
                                  {"box_ranging", "centers"}});
-    return {{"faithful", "As published: one view per sign, points averaged, boxes ranged by their centres",
+    return {{"faithful",
+             "As published, " + KnownObjects::faithfulFeatures("surf-128") +
+                 ": one view per sign, points averaged, boxes ranged by their centres",
              values}};
   }
 

@@ -54,8 +54,10 @@ class SegmentRecognition final : public SparseStereoPlugin {
                                  {"place_model", "homography"},
                                  {"min_agreeing", "4"},
                                  {"object_ranging", "mean"}});
-    return {
-        {"faithful", "As published: SURF in both views, regions by block matching, points averaged", values}};
+    return {{"faithful",
+             "As published, " + KnownObjects::faithfulFeatures("surf-64") +
+                 ": features in both views, regions by block matching, points averaged",
+             values}};
   }
 
   SparseResult run(const RectifiedPair& pair, const StereoCalibration& rig,
