@@ -179,40 +179,39 @@ class Locator {
   Locator(const KnownObject& object, int number, const SeenView& view, const LocateOptions& options)
       : object_(object), number_(number), view_(view), options_(options) {}
 
-  // The best of what the likeliest groups of matches say.
+  // Of what the likeliest groups of matches say, the place that is most like the picture.
   ObjectPlace locate(const Fit& fit) const {
     constexpr int kGroups = 8;
     const std::vector<PlacedMatch> distinct = placedMatches(object_, number_, view_, options_.ratio);
     if (static_cast<int>(distinct.size()) < kSeeds)
       return notFound(few(distinct.size(), kSeeds, "features match"));
-    std::vector<Agreement> found;
-    for (const std::vector<PlacedMatch>& group : likelyGroups(distinct, kGroups))
-      found.push_back(guided(fit(group), fit));
-    std::stable_sort(found.begin(), found.end(), [](const Agreement& a, const Agreement& b) {
-      return a.matches.size() > b.matches.size();
-    });
-    double most = -1;
-    for (const Agreement& agreement : found) {
-      if (distinctPlaces(agreement.matches) < options_.min_agreeing) continue;
-      const double like =
-          likeness(object_.thumbnail, object_.size_px, view_.gray, agreement.image_from_picture);
-      if (like >= options_.min_likeness) return placeBy(agreement, object_.size_px, options_);
-      most = std::max(most, like);
+    Agreement best;
+    int places = 0;
+    double most_like = -1;
+    for (const std::vector<PlacedMatch>& group : likelyGroups(distinct, kGroups)) {
+      Agreement found = guided(fit(group), fit);
+      const int agreeing = distinctPlaces(found.matches);
+      places = std::max(places, agreeing);
+      if (agreeing < options_.min_agreeing) continue;
+      const double like = likeness(object_.thumbnail, object_.size_px, view_.gray, found.image_from_picture);
+      if (like <= most_like && !best.matches.empty()) continue;
+      most_like = like;
+      best = std::move(found);
     }
-    return notFound(whyNot(found, most));
+    if (places < options_.min_agreeing)
+      return notFound(few(places, options_.min_agreeing, "matches agree on a place"));
+    if (most_like < options_.min_likeness) return notFound(unlike(places, most_like));
+    return placeBy(best, object_.size_px, options_);
   }
 
  private:
   static constexpr int kSeeds = 4;
 
-  std::string whyNot(const std::vector<Agreement>& found, double most_like) const {
-    int most = 0;
-    for (const Agreement& agreement : found) most = std::max(most, distinctPlaces(agreement.matches));
-    if (most < options_.min_agreeing) return few(most, options_.min_agreeing, "matches agree on a place");
+  std::string unlike(int places, double like) const {
     char text[96];
     std::snprintf(text, sizeof(text),
-                  "%d matches agree on a place, but what is there is not like it (%.2f of %.2f)", most,
-                  most_like, options_.min_likeness);
+                  "%d matches agree on a place, but what is there is not like it (%.2f of %.2f)", places,
+                  like, options_.min_likeness);
     return text;
   }
 
