@@ -40,12 +40,14 @@ std::string keyOf(const PluginSettings& settings) {
 
 }  // namespace
 
-std::vector<PluginParameter> KnownObjects::parameters() {
+std::vector<PluginParameter> KnownObjects::parameters(const std::string& views) {
+  const bool wide_first = views == "wide";  // the first choice is the default
   return {
       textParameter("objects", "A database (.objects), or pictures of the objects, separated by commas"),
       choiceParameter("features", "To learn pictures by; a database knows its own", featureNames()),
       choiceParameter("views", "To learn of each picture: as if turned by up to 60 degrees, or itself alone",
-                      {"wide", "frontal"}),
+                      wide_first ? std::vector<std::string>{"wide", "frontal"}
+                                 : std::vector<std::string>{"frontal", "wide"}),
       realParameter("picture_sensitivity", "Divides the contrast that features of pictures need", 2, 0.1, 20),
       textParameter("save_objects", "Database (.objects) to write what was learned to")};
 }

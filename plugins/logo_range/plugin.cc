@@ -19,7 +19,7 @@ class LogoRange final : public SparseStereoPlugin {
   }
 
   std::vector<PluginParameter> parameters() const override {
-    std::vector<PluginParameter> parameters = KnownObjects::parameters();
+    std::vector<PluginParameter> parameters = KnownObjects::parameters("wide");
     const std::vector<PluginParameter> own = {
         switchParameter("upper_half", "Look for signs in the upper half of the left view only", false),
         realParameter("sensitivity", "Divides the contrast that features of the views need", 2, 0.1, 20),

@@ -16,7 +16,7 @@ class SegmentRecognition final : public SparseStereoPlugin {
   }
 
   std::vector<PluginParameter> parameters() const override {
-    std::vector<PluginParameter> parameters = KnownObjects::parameters();
+    std::vector<PluginParameter> parameters = KnownObjects::parameters("frontal");
     const std::vector<PluginParameter> own = {
         choiceParameter("filter", "Which features to compare: from near regions, on epipolar lines, or all",
                         {"disparity", "epipolar", "none"}),
