@@ -24,6 +24,7 @@ struct ComputeArguments {
   ComputePaths paths;
   std::optional<int> max_disparity;
   int min_disparity = 0;
+  bool adaptive_range = false;
   std::string preset = "balanced";
   std::string mode = "dense";
   float min_confidence = 0;
@@ -100,6 +101,7 @@ void compute(const ComputeArguments& arguments) {
       searchRange(paths, inputs, arguments.min_disparity, arguments.max_disparity, options);
   options.min_disparity = range.min;
   options.num_disparities = range.count;
+  options.adaptive_range = arguments.adaptive_range;
   options.mode = arguments.mode == "sparse" ? OutputMode::kSparse : OutputMode::kDense;
   options.validation.min_confidence = arguments.min_confidence;
   options.memory = memoryMode(arguments.memory);
@@ -153,6 +155,9 @@ void addMatchingOptions(CLI::App& verb, ComputeArguments& arguments) {
   verb.add_option(
       "--max-disparity", arguments.max_disparity,
       "Search [min, max): max itself is not searched (default: the calibration's ndisp, else estimated)");
+  verb.add_flag("--adaptive-range", arguments.adaptive_range,
+                "Search each band of rows only for what a look at a quarter of the size finds in it: faster "
+                "where the range is wider than the scene by 64 or more");
   verb.add_option("--preset", arguments.preset, "fast, balanced (default), quality or paper");
   verb.add_option("--mode", arguments.mode, "dense (default) or sparse: measured pixels only")
       ->check(CLI::IsMember({"dense", "sparse"}));

@@ -64,6 +64,10 @@ void Options::validate() const {
   requireRange("min_disparity", min_disparity, -16384, 16384);
   requireRange("num_disparities", num_disparities, 1, kMaxDisparities);
   requireEnum("mode", mode, OutputMode::kDense);
+  if (adaptive_range && mode == OutputMode::kDense && completion.method == CompletionMethod::kPaper)
+    throw std::invalid_argument(
+        "adaptive_range is on, mode is dense and completion.method is paper, which matches nothing at full "
+        "size; allowed: off");
   requireEnum("memory", memory, MemoryMode::kLow);
   requireRange("threads", threads, 0, 1024);
   chooseIsa(isa);

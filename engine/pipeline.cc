@@ -9,7 +9,13 @@ namespace pomona {
 
 void Pipeline::run(const MatchInput& pair, ImageView<const std::uint8_t> mask, StageClock& clock) {
   const SparseStage::Settings s = settings(mask);
-  if (!isPaper()) match(pair, s, clock);
+  if (!isPaper()) {
+    if (options_.adaptive_range) {
+      bands_ = search_bands_.plan(pair, s);
+      clock.lap("search range");
+    }
+    match(pair, s, clock);
+  }
   if (isDense()) completion_.run(pair, s, options_.completion, maps(), clock);
   if (matchesTwice()) matchAgain(pair, s, clock);
 }
@@ -35,7 +41,7 @@ void Pipeline::match(const MatchInput& pair, const SparseStage::Settings& settin
     with_table.mutual_information = mutual_information_.table(pair, settings);
     clock.lap("mutual information");
   }
-  sparse_.run(pair, with_table, clock);
+  sparse_.run(pair, with_table, clock, bands_);
 }
 
 void Pipeline::noteBarePixels() {
@@ -70,7 +76,7 @@ void Pipeline::matchAgain(const MatchInput& pair, const SparseStage::Settings& s
   again.match.aggregation = options_.second_pass.aggregation;
   again.match.prior_weight = options_.second_pass.weight;
   again.match.prior_reach_px = options_.second_pass.reach_px;
-  sparse_.run(views, again, clock);
+  sparse_.run(views, again, clock, bands_);
   keepBarePixels();
   completion_.run(pair, settings, options_.completion, maps(), clock);
 }

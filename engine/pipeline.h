@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "engine/completion_stage.h"
 #include "engine/hierarchical_mi.h"
+#include "engine/search_bands.h"
 #include "engine/sparse_stage.h"
 #include "pomona/options.h"
 
@@ -44,6 +46,8 @@ class Pipeline {
   Isa isa_;
   int threads_;
   HierarchicalMi mutual_information_;
+  SearchBands search_bands_;
+  std::span<const SearchBand> bands_;  // none: the frame at once, over the whole range
   SparseStage sparse_;
   CompletionStage completion_;
   Image<float> first_map_;

@@ -7,15 +7,13 @@
 
 #include "core/cpu.h"
 #include "core/parallel.h"
+#include "engine/coarse_look.h"
 #include "engine/input.h"
-#include "engine/sparse_stage.h"
 #include "pomona/engine.h"
-#include "pyramid/scale.h"
 
 namespace pomona {
 namespace {
 
-constexpr int kFactor = 4;
 constexpr double kIgnoredShare = 0.0005;  // of the measured pixels: outliers that no scene needs
 constexpr int kStep = 16;
 
@@ -45,33 +43,12 @@ int estimateNumDisparities(const cv::Mat& left, const cv::Mat& right, const Opti
   requireMaskFits(mask, left);
   requireRangeFits(min_disparity, 1, left.cols);
 
-  const int width = scaledLength(left.cols, kFactor), height = scaledLength(left.rows, kFactor);
-  const double ratio = static_cast<double>(left.cols) / width;
-  ScaleScratch scratch;
-  Image<std::uint8_t> small[2];
-  const ImageView<const std::uint8_t> gray[2] = {input.views().left, input.views().right};
-  for (int i = 0; i < 2; ++i)
-    areaDownscale(GuideView{gray[i].data, gray[i].width, gray[i].height, 1, gray[i].stride}, small[i], width,
-                  height, scratch, pyramidKernels(isa), threads);
-
-  const Options preset = Options::preset("fast");
-  SparseStage::Settings settings;
-  settings.match = {static_cast<int>(std::floor(min_disparity / ratio)), std::min(width, kMaxDisparities),
-                    preset.cost, preset.aggregation, preset.winner};
-  settings.match.winner.uniqueness_percent = 10;
-  settings.validation = preset.validation;
-  Image<std::uint8_t> small_mask;
-  settings.mask = shrunkMask(maskView(mask), width, height, small_mask);
-  settings.isa = isa;
-  settings.threads = threads;
-  SparseStage stage;
-  StageClock untimed;
-  stage.run(
-      {small[0].view(), small[1].view(), {}, {}, {small[0].row(0), width, height, 1, small[0].view().stride}},
-      settings, untimed);
+  CoarseLook look;
+  const MatchMaps& maps = look.run(input.views(), min_disparity, left.cols, maskView(mask), isa, threads);
+  const double ratio = look.ratio();
 
   const float widest = static_cast<float>(min_disparity + left.cols) / static_cast<float>(ratio);
-  const double largest = ratio * nearlyLargest(stage.maps().disparity.view(), widest);
+  const double largest = ratio * nearlyLargest(maps.disparity.view(), widest);
   const int needed =
       static_cast<int>(std::ceil(largest + ratio)) + 1 - min_disparity;  // a coarse pixel of slack
   const int rounded = (std::max(needed, 1) + kStep - 1) / kStep * kStep;

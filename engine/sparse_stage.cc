@@ -27,11 +27,44 @@ void removeRejected(MatchMaps& maps, ImageView<const std::uint8_t> mask, int thr
   });
 }
 
+/// Rows [begin, end) of the pair.
+MatchInput cropped(const MatchInput& pair, int begin, int end) {
+  const auto rows = [&](const auto& image) {
+    auto part = image;
+    if (image.data == nullptr) return part;
+    part.data = image.row(begin);
+    part.height = end - begin;
+    return part;
+  };
+  return {rows(pair.left),    rows(pair.right), rows(pair.left16),
+          rows(pair.right16), rows(pair.guide), rows(pair.prior)};
+}
+
 }  // namespace
 
-void SparseStage::run(const MatchInput& pair, const Settings& s, StageClock& clock) {
+void SparseStage::matchBand(const MatchInput& pair, const Settings& s, const SearchBand& band) {
+  const SgmKernels& kernels = sgmKernels(s.isa);
+  const int begin = std::max(0, band.y - SearchBand::kMargin_px);
+  const int end = std::min(pair.left.height, band.y + band.height + SearchBand::kMargin_px);
+  MatchOptions options = s.match;
+  options.min_disparity = band.min_disparity;
+  options.disparities = band.disparities;
+  const auto finish = [&](int row, const WinnerRow& winners) {
+    const int y = begin + row;
+    if (y >= band.y && y < band.y + band.height) finishRow(winners, y, options, kernels, maps_);
+  };
+  matcher_.findWinners(cropped(pair, begin, end), options, s.mutual_information, kernels, finish, s.threads);
+}
+
+void SparseStage::run(const MatchInput& pair, const Settings& s, StageClock& clock,
+                      std::span<const SearchBand> bands) {
   const ValidationOptions& v = s.validation;
-  matcher_.match(pair, s.match, s.mutual_information, sgmKernels(s.isa), maps_, s.threads);
+  if (bands.empty()) {
+    matcher_.match(pair, s.match, s.mutual_information, sgmKernels(s.isa), maps_, s.threads);
+  } else {
+    maps_.resize(pair.left.width, pair.left.height);
+    for (const SearchBand& band : bands) matchBand(pair, s, band);
+  }
   removeRejected(maps_, s.mask, s.threads);
   clock.lap("matching");
 

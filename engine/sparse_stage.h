@@ -14,6 +14,16 @@
 
 namespace pomona {
 
+/// Rows [y, y + height) of the frame, to be searched for the disparities [min_disparity, min_disparity +
+/// disparities).
+struct SearchBand {
+  int y, height;
+  int min_disparity, disparities;
+
+  /// Rows above and below that are matched as well, so that the paths do not start at the band's border.
+  static constexpr int kMargin_px = 32;
+};
+
 class SparseStage {
  public:
   struct Settings {
@@ -26,11 +36,17 @@ class SparseStage {
   };
 
   /// Afterwards maps() holds the validated map: NaN with a reason wherever the state is not measured.
-  void run(const MatchInput& pair, const Settings& settings, StageClock& clock);
+  /// `bands`: none, or bands that cover the frame once; each keeps to its range instead of that of
+  /// `settings`.
+  void run(const MatchInput& pair, const Settings& settings, StageClock& clock,
+           std::span<const SearchBand> bands = {});
 
   MatchMaps& maps() { return maps_; }
+  const MatchMaps& maps() const { return maps_; }
 
  private:
+  void matchBand(const MatchInput& pair, const Settings& settings, const SearchBand& band);
+
   SgmMatcher matcher_;
   MatchMaps maps_;
   Image<float> filtered_;

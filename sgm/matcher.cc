@@ -6,7 +6,6 @@
 #include "pomona/pixel_state.h"
 
 namespace pomona {
-namespace {
 
 void finishRow(const WinnerRow& w, int y, const MatchOptions& o, const SgmKernels& kernels, MatchMaps& out) {
   const int width = out.disparity.width();
@@ -26,8 +25,6 @@ void finishRow(const WinnerRow& w, int y, const MatchOptions& o, const SgmKernel
     if (100 * w.best[x] > keep_percent * w.second[x])
       state[x] = static_cast<std::uint8_t>(PixelState::kAmbiguous);
 }
-
-}  // namespace
 
 void MatchMaps::resize(int width, int height) {
   disparity.resize(width, height);

@@ -48,6 +48,10 @@ struct MatchMaps {
   void resize(int width, int height);
 };
 
+/// Row y of the maps, which have their size, from its winners.
+void finishRow(const WinnerRow& winners, int y, const MatchOptions& options, const SgmKernels& kernels,
+               MatchMaps& out);
+
 class SgmMatcher {
  public:
   /// `table`: for kMutualInformation, the cost of every pair of 8-bit values (see mutual_information.h).

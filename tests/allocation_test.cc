@@ -109,6 +109,23 @@ TEST(Engine, FramesAfterTheFirstAllocateNothing) {
     for (int frame = 0; frame < 5; ++frame) EXPECT_TRUE(engine.compute(pair.left.image, lower).rows_aligned);
     EXPECT_EQ(allocations - before, 0) << "with rows to be moved";
   }
+  {
+    const RenderedPair large = render(namedScene("boxes", 1, 320, 256, 40));
+    const RenderedPair small = render(namedScene("trees", 2, 320, 256, 40));
+    Options o;
+    o.num_disparities = 160;
+    o.adaptive_range = true;
+    o.threads = 3;
+    StereoEngine engine(o);
+    engine.compute(large.left.image, large.right.image);
+    engine.compute(small.left.image, small.right.image);
+    const long before = allocations;
+    for (int frame = 0; frame < 6; ++frame) {
+      const RenderedPair& pair = frame % 2 ? large : small;
+      engine.compute(pair.left.image, pair.right.image);
+    }
+    EXPECT_EQ(allocations - before, 0) << "with an adaptive range";
+  }
   const long before = allocations;
   std::free(std::malloc(10));
   EXPECT_GT(allocations - before, 0) << "the counter does not count";

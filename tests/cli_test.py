@@ -159,6 +159,13 @@ class GoodInput(CommandTest):
         self.assertIn(f"average error {sum(errors) / len(errors):.3f} px", result.stdout)
         self.assertIn(f"coverage {100 * len(errors) / len(pairs):.2f} %", result.stdout.splitlines()[-1])
 
+    def test_adaptive_range_is_a_stage_of_its_own(self):
+        arguments = ("--calib", self.calib, "-o", "out.pfm", "--timings")
+        self.assertNotIn("search range", self.compute(*arguments).stdout)
+        result = self.compute(*arguments, "--adaptive-range")
+        self.assert_accepted(result)
+        self.assertIn("search range", result.stdout)
+
     def test_depth_is_focal_length_times_baseline_over_disparity(self):
         self.assert_accepted(self.compute("--calib", self.calib, "-o", "out.pfm", "--depth", "depth.pfm"))
         disparity = self.pfm("out.pfm")[2]
@@ -413,6 +420,7 @@ class BadOptions(CommandTest):
         self.refuse("sse9", "--isa", "sse9")
         self.refuse("threads is -1", "--threads", "-1")
         self.refuse("threads is 5000", "--threads", "5000")
+        self.refuse("adaptive_range is on", "--adaptive-range", "--preset", "paper")
 
     def test_usage(self):
         self.refuse("--mode", "--mode", "thick")

@@ -125,6 +125,13 @@ enum class MemoryMode {
 struct Options {
   int min_disparity = 0;     ///< smallest disparity searched, pixels; may be negative
   int num_disparities = 64;  ///< number of disparities searched, 1..1024; at most the image width
+  /// Look at a quarter of the size first, and search each band of rows only for the disparities found in it;
+  /// for all of the above in rows that have a part where too little was found to be sure. Faster where the
+  /// scene needs fewer disparities than are searched, by multiples of 64: ranges of up to 64 stay as they
+  /// are. A disparity that the look did not find, though it found others around, may be missed: of the true
+  /// ones of real scenes one in some thousands (docs/benchmarking.md). Not for dense maps of
+  /// CompletionMethod::kPaper, which match nothing at full size.
+  bool adaptive_range = false;
   OutputMode mode = OutputMode::kDense;
 
   CostOptions cost;
