@@ -11,6 +11,7 @@
 #include "apps/muted_stream.h"
 #include "apps/verbs.h"
 #include "camera/row_check.h"
+#include "core/cpu.h"
 #include "core/parallel.h"
 #include "datasets/scene_parts.h"
 #include "engine/input.h"
@@ -37,7 +38,8 @@ void check(const CheckArguments& arguments) {
                       : arguments.min_disparity + std::max(16, left.width / kUsualShare);
   RowCheck row_check;
   const RowOffsets rows =
-      row_check.measure(left, right, arguments.min_disparity, end - arguments.min_disparity, kReach_px);
+      row_check.measure(left, right, arguments.min_disparity, end - arguments.min_disparity,
+                        cameraKernels(chooseIsa({})), kReach_px);
   std::cout << "points    " << rows.points << " matched\n";
   if (std::isnan(rows.median_px)) {
     std::cout << "rows      unknown: fewer than 10 points have a match within " << kReach_px

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "core/parallel.h"
 
@@ -11,32 +10,20 @@ namespace pomona {
 namespace {
 
 constexpr int kStepBits = 6, kSteps = 1 << kStepBits;  // of a pixel
-constexpr int kOne = 4096;                             // sum of the weights
 constexpr int kTaps = 4;
 using Weights = std::array<int, kTaps>;
 
 // Of the rows from one above to two below, for places so many steps below a row.
 std::array<Weights, kSteps> cubicWeights() {
-  const auto rounded = [](double weight) { return static_cast<int>(std::lround(kOne * weight)); };
+  const auto rounded = [](double weight) { return static_cast<int>(std::lround(kRowWeights * weight)); };
   std::array<Weights, kSteps> weights;
   for (std::size_t i = 0; i < kSteps; ++i) {
     const double t = static_cast<double>(i) / kSteps;
     const int above = rounded(t * (-0.5 + t * (1 - 0.5 * t))), below = rounded(t * (0.5 + t * (2 - 1.5 * t))),
               farthest = rounded(0.5 * t * t * (t - 1));
-    weights[i] = {above, kOne - above - below - farthest, below, farthest};
+    weights[i] = {above, kRowWeights - above - below - farthest, below, farthest};
   }
   return weights;
-}
-
-template <typename T>
-void interpolate(const std::array<const T*, kTaps>& rows, const Weights& weights, int begin, int end,
-                 T* __restrict out) {
-  const auto [a, b, c, d] = rows;
-  const auto [wa, wb, wc, wd] = weights;
-  for (int x = begin; x < end; ++x) {
-    const int sum = wa * a[x] + wb * b[x] + wc * c[x] + wd * d[x];
-    out[x] = static_cast<T>(std::clamp((sum + kOne / 2) / kOne, 0, int{std::numeric_limits<T>::max()}));
-  }
 }
 
 }  // namespace
@@ -51,7 +38,8 @@ std::optional<RowOffsetPlane> rowCorrection(const RowOffsets& rows) {
 }
 
 template <typename T>
-void alignRows(ImageView<const T> right, const RowOffsetPlane& offset, Image<T>& out, int threads) {
+void alignRows(ImageView<const T> right, const RowOffsetPlane& offset, Image<T>& out,
+               const CameraKernels& kernels, int threads) {
   static const std::array<Weights, kSteps> kWeights = cubicWeights();
   const int width = right.width, height = right.height;
   out.resize(width, height);
@@ -66,14 +54,21 @@ void alignRows(ImageView<const T> right, const RowOffsetPlane& offset, Image<T>&
         while (end < width && place(end) == here) ++end;
         const int row = here >> kStepBits, step = here & (kSteps - 1);
         const auto source = [&](int i) { return right.row(std::clamp(row + i, 0, height - 1)); };
-        interpolate<T>({source(-1), source(0), source(1), source(2)},
-                       kWeights[static_cast<std::size_t>(step)], begin, end, out.row(y));
+        const Weights& weight = kWeights[static_cast<std::size_t>(step)];
+        const WeightedRows<T> rows{{source(-1), source(0), source(1), source(2)},
+                                   {weight[0], weight[1], weight[2], weight[3]}};
+        if constexpr (sizeof(T) == 1)
+          kernels.interpolate8(rows, begin, end, out.row(y));
+        else
+          kernels.interpolate16(rows, begin, end, out.row(y));
       }
     }
   });
 }
 
-template void alignRows(ImageView<const std::uint8_t>, const RowOffsetPlane&, Image<std::uint8_t>&, int);
-template void alignRows(ImageView<const std::uint16_t>, const RowOffsetPlane&, Image<std::uint16_t>&, int);
+template void alignRows(ImageView<const std::uint8_t>, const RowOffsetPlane&, Image<std::uint8_t>&,
+                        const CameraKernels&, int);
+template void alignRows(ImageView<const std::uint16_t>, const RowOffsetPlane&, Image<std::uint16_t>&,
+                        const CameraKernels&, int);
 
 }  // namespace pomona

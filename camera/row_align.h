@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "camera/kernels.h"
 #include "camera/row_check.h"
 #include "core/image.h"
 
@@ -21,11 +22,12 @@ std::optional<RowOffsetPlane> rowCorrection(const RowOffsets& rows);
 /// its border as its nearest row. `out` gets the size of `right`, and is another image. The result does not
 /// depend on `threads`.
 template <typename T>
-void alignRows(ImageView<const T> right, const RowOffsetPlane& offset, Image<T>& out, int threads);
+void alignRows(ImageView<const T> right, const RowOffsetPlane& offset, Image<T>& out,
+               const CameraKernels& kernels, int threads);
 
 extern template void alignRows(ImageView<const std::uint8_t>, const RowOffsetPlane&, Image<std::uint8_t>&,
-                               int);
+                               const CameraKernels&, int);
 extern template void alignRows(ImageView<const std::uint16_t>, const RowOffsetPlane&, Image<std::uint16_t>&,
-                               int);
+                               const CameraKernels&, int);
 
 }  // namespace pomona

@@ -205,42 +205,25 @@ RowOffsets summary(const Match* matches, int count, int width, int height) {
 
 }  // namespace
 
-void RowCheck::reduce(ImageView<const std::uint8_t> in, int scale, View& view) {
-  const int width = in.width / scale, height = in.height / scale, area = scale * scale;
+void RowCheck::reduce(ImageView<const std::uint8_t> in, int scale, View& view, const CameraKernels& kernels) {
+  const int width = in.width / scale, height = in.height / scale;
   view.coarse.resize(width, height);
   view.contrast.resize(width, height);
-  view.sums.resize(in.width, 1);
-  std::uint16_t* sums = view.sums.row(0);
+  for (int y = 0; y < height; ++y)
+    kernels.reduceBlocks(in.row(y * scale), in.stride, scale, width, view.coarse.row(y));
   for (int y = 0; y < height; ++y) {
-    std::fill(sums, sums + in.width, std::uint16_t{0});
-    for (int i = 0; i < scale; ++i) {
-      const std::uint8_t* p = in.row(y * scale + i);
-      for (int x = 0; x < in.width; ++x) sums[x] = static_cast<std::uint16_t>(sums[x] + p[x]);
-    }
-    std::uint8_t* out = view.coarse.row(y);
-    for (int x = 0; x < width; ++x) {
-      int sum = 0;
-      for (int i = 0; i < scale; ++i) sum += sums[x * scale + i];
-      out[x] = static_cast<std::uint8_t>((sum + area / 2) / area);
-    }
-  }
-  // A pixel against those 3 to the left, right, above and below.
-  for (int y = 0; y < height; ++y) {
-    const std::uint8_t *p = view.coarse.row(y), *above = view.coarse.row(std::max(0, y - 3)),
-                       *below = view.coarse.row(std::min(height - 1, y + 3));
-    std::uint8_t* out = view.contrast.row(y);
-    for (int x = 0; x < width; ++x) {
-      const int surroundings = p[std::max(0, x - 3)] + p[std::min(width - 1, x + 3)] + above[x] + below[x];
-      out[x] = static_cast<std::uint8_t>(std::clamp(128 + (4 * p[x] - surroundings) / 4, 0, 255));
-    }
+    const std::uint8_t *above = view.coarse.row(std::max(0, y - kContrastReach)),
+                       *below = view.coarse.row(std::min(height - 1, y + kContrastReach));
+    kernels.contrast(above, view.coarse.row(y), below, width, view.contrast.row(y));
   }
 }
 
-RowOffsets RowCheck::measure(Bytes left, Bytes right, int min_disparity, int num_disparities, int reach_px) {
+RowOffsets RowCheck::measure(Bytes left, Bytes right, int min_disparity, int num_disparities,
+                             const CameraKernels& kernels, int reach_px) {
   const int scale = left.width >= 800 ? 4 : left.width >= 400 ? 2 : 1;
   const int reach = std::max(1, reach_px / scale);
-  reduce(left, scale, left_);
-  reduce(right, scale, right_);
+  reduce(left, scale, left_, kernels);
+  reduce(right, scale, right_, kernels);
   const Bytes left_contrast = std::as_const(left_.contrast).view(),
               right_contrast = std::as_const(right_.contrast).view();
   const Bytes left_coarse = std::as_const(left_.coarse).view(),

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "camera/kernels.h"
 #include "core/image.h"
 
 namespace pomona {
@@ -37,16 +38,15 @@ class RowCheck {
   /// `left`, `right`: gray, of equal size. Disparities are looked for from `min_disparity` on,
   /// `num_disparities` of them, and rows up to `reach_px` up and down; the time grows with both.
   RowOffsets measure(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,
-                     int min_disparity, int num_disparities, int reach_px = 8);
+                     int min_disparity, int num_disparities, const CameraKernels& kernels, int reach_px = 8);
 
  private:
   struct View {
     Image<std::uint8_t> coarse;  // mean of scale x scale pixels
     Image<std::uint8_t>
-        contrast;               // 128 + what stands out from its surroundings, for matching across exposures
-    Image<std::uint16_t> sums;  // one row
+        contrast;  // 128 + what stands out from its surroundings, for matching across exposures
   };
-  static void reduce(ImageView<const std::uint8_t> in, int scale, View& view);
+  static void reduce(ImageView<const std::uint8_t> in, int scale, View& view, const CameraKernels& kernels);
 
   View left_, right_;
 };

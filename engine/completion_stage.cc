@@ -10,6 +10,8 @@
 namespace pomona {
 namespace {
 
+static_assert(SegmentMatch::kMostDisparities >= kMaxDisparities);
+
 struct Limits {
   float low, high;
   explicit Limits(const MatchOptions& match)
@@ -67,6 +69,8 @@ void CompletionStage::fillHolesOf(const MatchInput& pair, const SparseStage::Set
   const PyramidKernels& kernels = pyramidKernels(settings.isa);
   if (options.segment_planes)
     fillFromPlanes({.guide = pair.guide,
+                    .left = pair.left,
+                    .right = pair.right,
                     .right_disparity = maps.right_disparity.view(),
                     .scale = options.segment_scale,
                     .min_disparity = limits.low,

@@ -27,6 +27,7 @@ cv::Mat shared(Image<T>& image, int type) {
 
 struct StereoEngine::State {
   Options options;
+  Isa isa;
   int threads;
   std::optional<StereoCalibration> calibration;
   std::optional<Rectifier> rectifier;  // if the views need one
@@ -41,8 +42,9 @@ struct StereoEngine::State {
 
   explicit State(const Options& o)
       : options(o),
+        isa(chooseIsa(o.isa)),
         threads(o.threads > 0 ? o.threads : availableThreads()),
-        pipeline(o, chooseIsa(o.isa), threads) {
+        pipeline(o, isa, threads) {
     result.timings.reserve(32);
   }
   cv::Mat rectify(const cv::Mat& left_view, const cv::Mat& right_view, const cv::Mat& mask);
@@ -67,7 +69,7 @@ cv::Mat StereoEngine::State::rectify(const cv::Mat& left_view, const cv::Mat& ri
 
 RowOffsets StereoEngine::State::checkRows() {
   const RowOffsets rows = row_check.measure(input.views().left, input.views().right, options.min_disparity,
-                                            options.num_disparities);
+                                            options.num_disparities, cameraKernels(isa));
   result.row_offset_px = rows.median_px;
   result.row_error_px = rows.worst_px;
   return rows;
@@ -79,10 +81,10 @@ MatchInput StereoEngine::State::alignedViews(const RowOffsets& rows) {
   const std::optional<RowOffsetPlane> correction = rowCorrection(rows);
   result.rows_aligned = correction.has_value();
   if (!correction) return views;
-  alignRows(views.right, *correction, right8, threads);
+  alignRows(views.right, *correction, right8, cameraKernels(isa), threads);
   views.right = right8.view();
   if (views.right16.empty()) return views;
-  alignRows(views.right16, *correction, right16, threads);
+  alignRows(views.right16, *correction, right16, cameraKernels(isa), threads);
   views.right16 = right16.view();
   return views;
 }
@@ -128,7 +130,7 @@ const StereoResult& StereoEngine::compute(const cv::Mat& left_view, const cv::Ma
   StageClock clock(s.result.timings);
   const cv::Mat mask = s.rectify(left_view, right_view, given_mask);
   if (s.rectifier) clock.lap("rectification");
-  s.input.set(s.left, s.right, s.threads, sgmKernels(chooseIsa(s.options.isa)));
+  s.input.set(s.left, s.right, s.threads, sgmKernels(s.isa));
   requireRangeFits(s.options.min_disparity, s.options.num_disparities, s.left.cols);
   requireMaskFits(mask, s.left);
   clock.lap("input");

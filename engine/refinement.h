@@ -19,7 +19,6 @@ class Refinement {
            const FilterKernels& kernels, int threads, StageClock& clock);
 
  private:
-  Image<float> filtered_;
   WeightedMedianScratch weighted_median_;
   MedianScratch median_;
 };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "core/parallel.h"
 #include "pomona/pixel_state.h"
@@ -65,7 +64,7 @@ void SparseStage::run(const MatchInput& pair, const Settings& s, StageClock& clo
     maps_.resize(pair.left.width, pair.left.height);
     for (const SearchBand& band : bands) matchBand(pair, s, band);
   }
-  removeRejected(maps_, s.mask, s.threads);
+  if (!s.mask.empty() || s.match.winner.uniqueness_percent > 0) removeRejected(maps_, s.mask, s.threads);
   clock.lap("matching");
 
   if (v.left_right_px >= 0)
@@ -78,12 +77,9 @@ void SparseStage::run(const MatchInput& pair, const Settings& s, StageClock& clo
                    filterKernels(s.isa), s.threads);
   clock.lap("speckle");
 
-  if (v.median_size > 0) {
-    filtered_.resize(pair.left.width, pair.left.height);
-    medianFilter(maps_.disparity.view(), filtered_.view(), v.median_size, filterKernels(s.isa), median_,
+  if (v.median_size > 0)
+    medianFilter(maps_.disparity.view(), maps_.disparity.view(), v.median_size, filterKernels(s.isa), median_,
                  s.threads);
-    std::swap(maps_.disparity, filtered_);
-  }
   clock.lap("median");
 }
 

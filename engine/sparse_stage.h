@@ -49,7 +49,6 @@ class SparseStage {
 
   SgmMatcher matcher_;
   MatchMaps maps_;
-  Image<float> filtered_;
   LeftRightScratch left_right_;
   SpeckleScratch speckle_;
   MedianScratch median_;

@@ -24,9 +24,9 @@ struct Fit {
 // Printed by bench/confidence.
 constexpr Fit kLogOdds = {2.6307, 0.16598, 0.019044, -0.083038, -0.042722, -1.3795};
 constexpr Fit kLogSigma = {-0.9996, -0.10548, 0.0013102, 0.025608, 0.02155, 0.68541};
-constexpr Trust::Pair kNothingStandsOut = {0.51f, 12.92f};
+constexpr TrustPair kNothingStandsOut = {0.51f, 12.92f};
 
-constexpr Trust::Pair trustInFilled(PixelState state) {
+constexpr TrustPair trustInFilled(PixelState state) {
   switch (state) {
     case PixelState::kFilledPlane:
       return {0.87f, 0.44f};
@@ -56,11 +56,12 @@ void trustCodes(const MatchMaps& maps, int largest_cost_sum, int y, int x_begin,
 Trust::Trust() {
   for (int code = 0; code < TrustFeatures::kCodes; ++code) {
     const TrustFeatures f = TrustFeatures::of(code);
-    measured_[code] = f.bare ? kNothingStandsOut
-                             : Pair{static_cast<float>(1 / (1 + std::exp(-kLogOdds.of(f)))),
-                                    static_cast<float>(std::exp(kLogSigma.of(f)))};
+    pairs_[code] = f.bare ? kNothingStandsOut
+                          : TrustPair{static_cast<float>(1 / (1 + std::exp(-kLogOdds.of(f)))),
+                                      static_cast<float>(std::exp(kLogSigma.of(f)))};
   }
-  for (int state = 0; state < 256; ++state) in_state_[state] = trustInFilled(static_cast<PixelState>(state));
+  for (int state = 0; state < 256; ++state)
+    pairs_[TrustFeatures::kCodes + state] = trustInFilled(static_cast<PixelState>(state));
 }
 
 void Trust::estimate(const MatchMaps& maps, int largest_cost_sum, const FilterKernels& kernels, int threads) {
@@ -73,13 +74,9 @@ void Trust::estimate(const MatchMaps& maps, int largest_cost_sum, const FilterKe
       for (int begin = 0; begin < width; begin += kMatchChunk) {
         const int count = std::min(kMatchChunk, width - begin);
         trustCodes(maps, largest_cost_sum, y, begin, count, kernels, codes);
-        const std::uint8_t* state = maps.state.row(y) + begin;
-        for (int i = 0; i < count; ++i) {
-          const bool measured = isMeasured(static_cast<PixelState>(state[i]));
-          const Pair& pair = *(measured ? &measured_[codes[i]] : &in_state_[state[i]]);  // no branch
-          confidence.row(y)[begin + i] = pair.confidence;
-          sigma_px.row(y)[begin + i] = pair.sigma_px;
-        }
+        kernels.trustPairs(pairs_.data(), codes, maps.state.row(y) + begin,
+                           static_cast<std::uint8_t>(PixelState::kMeasured), count, confidence.row(y) + begin,
+                           sigma_px.row(y) + begin);
       }
   });
 }

@@ -12,7 +12,7 @@ namespace pomona {
 
 /// What the trust in a measured pixel rests on, each in whole steps; the last is open upwards.
 struct TrustFeatures {
-  static constexpr int kCodes = kTrustSteps * kTrustSteps * kTrustSteps;
+  static constexpr int kCodes = kTrustCodes;
   int margin;     ///< how far the second-best sum is above the best: in twelfths of the largest cost sum
   int curvature;  ///< of the sums at the winner: in twelfths of the largest cost sum
   int residual;   ///< |d - d_right| at the match: in px / 8; the last also if the right view knows none
@@ -36,10 +36,6 @@ void trustCodes(const MatchMaps& maps, int largest_cost_sum, int y, int x_begin,
 /// Fitted by bench/confidence to rendered scenes with noise, gain, blur and weak texture.
 class Trust {
  public:
-  struct Pair {
-    float confidence, sigma_px;
-  };
-
   Trust();
 
   /// Of every pixel: confidence, the probability that |d - truth| <= 1 px, 0 where d is unknown; and
@@ -52,8 +48,7 @@ class Trust {
   Image<float> confidence, sigma_px;
 
  private:
-  std::array<Pair, TrustFeatures::kCodes> measured_;
-  std::array<Pair, 256> in_state_;  // of all others
+  std::array<TrustPair, TrustFeatures::kCodes + 256> pairs_;  // of measured pixels, by code; others, by state
 };
 
 }  // namespace pomona

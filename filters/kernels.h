@@ -35,6 +35,9 @@ struct GuidedRow {
   std::ptrdiff_t stride;  ///< of both, in elements
 };
 
+/// Of filters/median.h.
+inline constexpr int kMedianOverrun = 18;
+
 /// The window of filters/weighted_median.h, in reading order.
 struct MedianWindow {
   static constexpr int kRadius = 5;
@@ -51,50 +54,74 @@ inline constexpr std::uint8_t kPlaneColorTolerance = 15;
 inline constexpr float kPlaneFewestTaps = 6.0f;
 inline constexpr float kPlaneRidge = 0.3f;
 
-/// Of filters/left_right.h: `count` pixels of a row from x_begin on, at most kMatchChunk; `right` is the
-/// whole row of the right map.
-struct LeftRightPixels {
+/// Pixels are matched so many at a time, in memory that the first-level cache holds.
+inline constexpr int kMatchChunk = 256;
+
+/// `count` pixels of a row from x_begin on, at most kMatchChunk; `right` is the whole row of the right map.
+struct MatchedPixels {
   const float* disparity;
   const float* right;
   int x_begin, count, width;
 };
-inline constexpr int kMatchChunk = 64;
-/// `count` pixels of the right map from q_begin on.
-struct MetPixels {
+
+/// One row of filters/left_right.h, and what becomes of the states.
+struct LeftRightRow {
+  int width, min_disparity, max_disparity;
+  float threshold_px, tolerance_px;  ///< tolerance_px >= 1: two neighbouring columns are within it
   const float* right;
-  int q_begin, count, width, min_disparity, max_disparity;
-  float tolerance_px;
+  float* disparity;                                           ///< in and out
+  std::uint8_t* state;                                        ///< in and out
+  std::uint8_t measured, out_of_range, mismatched, occluded;  ///< values of it
+  std::uint8_t* marks;                                        ///< scratch: kMarksPerPixel (width + 2) bytes
 };
+inline constexpr int kMarksPerPixel = 2;
 /// Disparities of this size or more, as infinite ones, meet nothing.
 inline constexpr float kFarthestDisparity_px = 1e9f;
-/// What becomes of a disparity: 0 also if it is NaN.
-inline constexpr int kAgrees = 0, kContradicted = 1, kMatchOutside = 2;
 
 /// Of engine/trust.h.
 inline constexpr int kTrustSteps = 16;
+inline constexpr int kTrustCodes = kTrustSteps * kTrustSteps * kTrustSteps;
 struct TrustPixels {
-  LeftRightPixels match;
+  MatchedPixels match;
   const std::uint16_t *margin, *curvature;
   float scale;  ///< from these to their steps
 };
+struct TrustPair {
+  float confidence, sigma_px;
+};
+
+/// Pixels of a row, from `begin` to the next run of the row, whose neighbours differ by at most the step; or
+/// that are all unknown. A node of a forest, a tree per component.
+struct SpeckleRun {
+  std::int32_t begin;
+  /// Of a root, the pixels of the component, negated; -enough_px also for more, after which components may
+  /// stay apart, and for unknown pixels. Of others, a run nearer to the root.
+  std::int32_t link;
+};
+struct SpeckleRow {
+  const float* disparity;
+  const std::uint64_t* breaks;  ///< bit x % 64 of word x / 64: a run other than the row's first begins at x
+  int first;                    ///< index of the row's first run
+};
 
 struct FilterKernels {
-  /// out[i]: what the right map says of the disparity of pixel i, see above.
-  void (*contradictions)(const LeftRightPixels& pixels, float threshold_px, std::uint8_t* out);
-  /// first[i] to last[i]: the left columns q + e in the image with a whole disparity e, min_disparity <= e <=
-  /// max_disparity, within tolerance_px of the right map at q; `width` to `width` if there is none.
-  void (*metColumns)(const MetPixels& pixels, std::int32_t* first, std::int32_t* last);
+  void (*leftRight)(const LeftRightRow&);
   /// codes[i] = (margin step * kTrustSteps + curvature step) * kTrustSteps + residual step; the residual's
   /// are eighths of a pixel of |d - d_right| at the match; the last one of each is open upwards. The first
   /// step of the margin is cut in two: 0 is its lower half, 1 its upper.
   void (*trustCodes)(const TrustPixels& pixels, std::uint16_t* codes);
-  /// out[i] = 1 if row[i] is not connected to row[i - 1], see filters/speckle.h; 0 if both are unknown.
-  void (*breaks)(const float* row, int count, float max_step_px, std::uint8_t* out);
-  /// out[i] = 1 if upper[i] and lower[i] are connected, and not by way of upper[i - 1] and lower[i - 1]
-  /// already.
-  void (*links)(const float* upper, const float* lower, int count, float max_step_px, std::uint8_t* out);
+  /// The pairs of `count` pixels, at most kMatchChunk: of_code[code] where the state is `measured`,
+  /// of_code[kTrustCodes + state] elsewhere.
+  void (*trustPairs)(const TrustPair* of_code, const std::uint16_t* codes, const std::uint8_t* state,
+                     std::uint8_t measured, int count, float* confidence, float* sigma_px);
+  /// Cuts a row into `runs`, filters/speckle.h, and sets its `breaks`; returns how many there are.
+  int (*findRuns)(const float* row, int width, float max_step_px, int enough_px, std::uint64_t* breaks,
+                  SpeckleRun* runs);
+  /// Unites the runs of two neighbouring rows that are connected somewhere.
+  void (*uniteRuns)(const SpeckleRow& above, const SpeckleRow& below, int width, float max_step_px,
+                    int enough_px, SpeckleRun* runs);
   /// One row of the NaN-aware median, see filters/median.h. `rows` are the 3 (5) input rows around it,
-  /// readable from 1 (2) pixels before their start up to the next multiple of 16 pixels, and 1 (2) more.
+  /// readable from 1 (2) pixels before their start to kMedianOverrun pixels after their end.
   void (*median3x3)(const float* const* rows, int width, float* out);
   void (*median5x5)(const float* const* rows, int width, float* out);
   /// kBilateralBlock pixels of the joint bilateral filter, NaN where unknown, see filters/joint_bilateral.h.

@@ -10,7 +10,7 @@ namespace pomona {
 
 /// Kept from call to call.
 struct LeftRightScratch {
-  Image<std::uint8_t> met;  // whether a left pixel's epipolar line meets the right map
+  Image<std::uint8_t> marks;  // of left pixels whose epipolar line meets the right map; a row per strip
 };
 
 /// Rejects measured pixels whose match does not point back at them, and tells why (Hirschmueller 2008,

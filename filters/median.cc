@@ -8,6 +8,32 @@
 #include "core/parallel.h"
 
 namespace pomona {
+namespace {
+
+constexpr int kStripRows = 32, kMostRadius = 2;
+
+/// The rows of an image around the current one of a strip [begin, end), with unknown pixels around the image:
+/// near at hand, and out of the way of what is written in their place.
+struct RowRing {
+  ImageView<const float> in;
+  Image<float>& buffer;
+  int first, count;  ///< its rows in `buffer`; behind them those after the strip's end
+  int end;
+
+  float* row(int y) const {
+    return buffer.row(first + (y < end ? (y + count) % count : count + y - end)) + kMostRadius;
+  }
+  void read(int y) const {
+    const bool inside = y >= 0 && y < in.height;
+    const int width = inside ? in.width : 0;
+    float *begin = row(y) - kMostRadius, *row_end = begin + buffer.width();
+    std::fill(begin, row(y), std::numeric_limits<float>::quiet_NaN());
+    if (inside) std::copy_n(in.row(y), width, row(y));
+    std::fill(row(y) + width, row_end, std::numeric_limits<float>::quiet_NaN());
+  }
+};
+
+}  // namespace
 
 void medianFilter(ImageView<const float> in, ImageView<float> out, int size, const FilterKernels& kernels,
                   MedianScratch& scratch, int threads) {
@@ -15,18 +41,23 @@ void medianFilter(ImageView<const float> in, ImageView<float> out, int size, con
     throw std::invalid_argument("median size is " + std::to_string(size) + "; allowed: 3, 5");
   if (in.empty()) return;
 
-  const int radius = size / 2;
-  PaddedPlane& padded = scratch.padded;
-  padded.resize(in.width, in.height, radius, std::numeric_limits<float>::quiet_NaN());
-  parallelStrips(threads, in.height, 16, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) std::copy_n(in.row(y), in.width, padded.row(y));
+  const int strips = (in.height + kStripRows - 1) / kStripRows, radius = size / 2, kept = size + radius;
+  scratch.rows.resize(in.width + kMostRadius + kMedianOverrun, strips * kept);
+  const auto ringOf = [&](int strip) {
+    return RowRing{in, scratch.rows, strip * kept, size, std::min(in.height, (strip + 1) * kStripRows)};
+  };
+  parallelFor(threads, strips, [&](int strip) {  // what other strips may write
+    const RowRing ring = ringOf(strip);
+    for (int y = -radius; y < radius; ++y) ring.read(strip * kStripRows + y);
+    for (int y = 0; y < radius; ++y) ring.read(ring.end + y);
   });
-
   const auto median_row = size == 3 ? kernels.median3x3 : kernels.median5x5;
-  parallelStrips(threads, in.height, 16, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) {
-      const float* rows[5];
-      for (int i = 0; i < size; ++i) rows[i] = padded.row(y + i - radius);
+  parallelFor(threads, strips, [&](int strip) {
+    const RowRing ring = ringOf(strip);
+    for (int y = strip * kStripRows; y < ring.end; ++y) {
+      if (y + radius < ring.end) ring.read(y + radius);
+      const float* rows[2 * kMostRadius + 1];
+      for (int i = 0; i < size; ++i) rows[i] = ring.row(y + i - radius);
       median_row(rows, in.width, out.row(y));
     }
   });

@@ -1,87 +1,20 @@
 #include "filters/speckle.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "core/parallel.h"
-#include "filters/flags.h"
 #include "pomona/pixel_state.h"
 
 namespace pomona {
 namespace {
 
-using Run = SpeckleScratch::Run;
-using RowRuns = SpeckleScratch::RowRuns;
-
 // Strips are the same for every thread count: each has its own part of the array of runs.
 constexpr int kStripRows = 32;
 
-/// Halves the path to the root on its way.
-int findRoot(Run* runs, int i) {
-  while (runs[i].parent != i) {
-    runs[i].parent = runs[runs[i].parent].parent;
-    i = runs[i].parent;
-  }
-  return i;
-}
-
-void unite(Run* runs, int a, int b) {
-  a = findRoot(runs, a);
-  b = findRoot(runs, b);
-  if (a == b) return;
-  if (b < a) std::swap(a, b);
-  runs[b].parent = a;
-  runs[a].size += runs[b].size;
-}
-
-/// Calls `visit(x)` in rising order for each x in [1, width) that `flag(begin, count, flags)` flags.
-template <typename Flag, typename Visit>
-void forEachFlagged(int width, Flag flag, Visit visit) {
-  FlagChunk chunk;
-  for (int begin = 1; begin < width; begin += FlagChunk::kPixels) {
-    const int count = std::min(FlagChunk::kPixels, width - begin);
-    flag(begin, count, chunk.flags);
-    chunk.forEachSet(count, [&](int i) { visit(begin + i); });
-  }
-}
-
-/// Appends the runs of a row at `next`; returns the index after the last one. Unknown pixels lie between
-/// runs.
-int appendRuns(const float* row, int width, float max_step_px, const FilterKernels& kernels, Run* runs,
-               int next) {
-  int begin = 0;
-  const auto close = [&](int end) {
-    if (!std::isnan(row[begin])) {
-      runs[next] = {begin, end, next, end - begin};
-      ++next;
-    }
-    begin = end;
-  };
-  forEachFlagged(
-      width,
-      [&](int x, int count, std::uint8_t* flags) { kernels.breaks(row + x, count, max_step_px, flags); },
-      close);
-  close(width);
-  return next;
-}
-
-/// Unites the runs of two neighbouring rows that are connected somewhere.
-void linkRows(const float* upper, RowRuns above, const float* lower, RowRuns below, int width,
-              float max_step_px, const FilterKernels& kernels, Run* runs) {
-  int a = above.first, b = below.first;
-  const auto link = [&](int x) {  // both pixels are known, so both lie on runs
-    while (runs[a].end <= x) ++a;
-    while (runs[b].end <= x) ++b;
-    unite(runs, a, b);
-  };
-  if (std::fabs(upper[0] - lower[0]) <= max_step_px) link(0);
-  forEachFlagged(
-      width,
-      [&](int x, int count, std::uint8_t* flags) {
-        kernels.links(upper + x, lower + x, count, max_step_px, flags);
-      },
-      link);
+int sizeOfComponent(const SpeckleRun* runs, int i) {
+  while (runs[i].link >= 0) i = runs[i].link;  // read only: strips share the forest
+  return -runs[i].link;
 }
 
 }  // namespace
@@ -92,10 +25,14 @@ void removeSpeckles(ImageView<float> disparity, ImageView<std::uint8_t> state, i
   if (disparity.empty() || min_size_px <= 1) return;
   scratch.runs.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   scratch.rows.resize(static_cast<std::size_t>(height));
-  Run* runs = scratch.runs.data();
-  RowRuns* rows = scratch.rows.data();
-  const auto link = [&](int y) {
-    linkRows(disparity.row(y - 1), rows[y - 1], disparity.row(y), rows[y], width, max_step_px, kernels, runs);
+  scratch.breaks.resize((width + 63) / 64, height);
+  SpeckleRun* runs = scratch.runs.data();
+  SpeckleScratch::RowRuns* rows = scratch.rows.data();
+  const auto rowAt = [&](int y) {
+    return SpeckleRow{disparity.row(y), scratch.breaks.row(y), rows[y].first};
+  };
+  const auto uniteWithAbove = [&](int y) {
+    kernels.uniteRuns(rowAt(y - 1), rowAt(y), width, max_step_px, min_size_px, runs);
   };
 
   parallelFor(threads, (height + kStripRows - 1) / kStripRows, [&](int strip) {
@@ -103,23 +40,21 @@ void removeSpeckles(ImageView<float> disparity, ImageView<std::uint8_t> state, i
     int next = y_begin * width;
     for (int y = y_begin; y < y_end; ++y) {
       const int first = next;
-      next = appendRuns(disparity.row(y), width, max_step_px, kernels, runs, first);
+      next += kernels.findRuns(disparity.row(y), width, max_step_px, min_size_px, scratch.breaks.row(y),
+                               runs + first);
       rows[y] = {first, next};
-      if (y > y_begin) link(y);
+      if (y > y_begin) uniteWithAbove(y);
     }
   });
-  for (int y = kStripRows; y < height; y += kStripRows) link(y);
+  for (int y = kStripRows; y < height; y += kStripRows) uniteWithAbove(y);
 
   parallelStrips(threads, height, kStripRows, [&](int y_begin, int y_end) {
     for (int y = y_begin; y < y_end; ++y)
       for (int i = rows[y].first; i < rows[y].last; ++i) {
-        int root = i;
-        while (runs[root].parent != root) root = runs[root].parent;  // read only: strips share the forest
-        if (runs[root].size >= min_size_px) continue;
-        std::fill(disparity.row(y) + runs[i].begin, disparity.row(y) + runs[i].end,
-                  std::numeric_limits<float>::quiet_NaN());
-        std::fill(state.row(y) + runs[i].begin, state.row(y) + runs[i].end,
-                  static_cast<std::uint8_t>(PixelState::kSpeckle));
+        if (sizeOfComponent(runs, i) >= min_size_px) continue;
+        const int begin = runs[i].begin, end = i + 1 < rows[y].last ? runs[i + 1].begin : width;
+        std::fill(disparity.row(y) + begin, disparity.row(y) + end, std::numeric_limits<float>::quiet_NaN());
+        std::fill(state.row(y) + begin, state.row(y) + end, static_cast<std::uint8_t>(PixelState::kSpeckle));
       }
   });
 }

@@ -9,18 +9,12 @@
 namespace pomona {
 
 struct SpeckleScratch {
-  /// Known pixels [begin, end) of one row whose neighbours differ by at most the step; a node of a union-find
-  /// forest whose roots have the lowest index of their component.
-  struct Run {
-    int begin, end;
-    int parent;
-    int size;  ///< pixels of the component; meaningful in roots
-  };
   struct RowRuns {
     int first, last;  ///< runs[first] up to, not including, runs[last]
   };
-  Buffer<Run, Pages::kSmall> runs;  // room for a run per pixel
+  Buffer<SpeckleRun, Pages::kSmall> runs;  // room for a run per pixel
   Buffer<RowRuns> rows;
+  Image<std::uint64_t> breaks;
 };
 
 /// Finds the 4-connected components of known (not NaN) pixels in which neighbours differ by at most

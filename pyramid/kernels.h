@@ -66,6 +66,14 @@ struct PyramidKernels {
   int (*countNearPlane)(const float* x, const float* y, const float* d, int n, float a, float b, float c,
                         float tolerance);
 
+  /// out[x] = 25 rows[2][x] less the sum of the 5 x 5 pixels around it, columns beyond the ends being the
+  /// last ones; 0 if that is beyond +- limit, which is at most 127.
+  void (*localResidual)(const std::uint8_t* const rows[5], int n, int limit, std::int8_t* out);
+  /// For every k in 0 .. places - 1, over the i < n with left[i] != 0:
+  /// products[k] += left[i] * right[i + k], squares[k] += right[i + k]^2. Values are within +-90.
+  void (*correlate)(const std::int8_t* left, const std::int8_t* right, int n, int places,
+                    std::int32_t* products, std::int32_t* squares);
+
   /// out[i] = the bytes of pixel i, the first in the lowest place
   void (*packColors)(const std::uint8_t* in, int channels, int n, std::uint32_t* out);
 

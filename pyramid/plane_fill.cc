@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
+#include <optional>
 
 #include "core/parallel.h"
 #include "pyramid/holes.h"
@@ -20,6 +20,8 @@ constexpr int kMinRowsPerStrip = 32;
 constexpr int kMinSegment_px = 100;
 constexpr int kMinSources = 24;
 constexpr float kMinInlierRatio = 0.5f;
+constexpr float kMinOpenShare = 0.3f;    // of a segment that is matched as a whole: its holes
+constexpr double kScoreTolerance = 1.5;  // deviations that a plane's score may be below the level's
 
 struct Division {
   float k;             // of the full image
@@ -30,28 +32,24 @@ constexpr std::array<Division, 2> kDivisions = {{{150, 0.3f}, {1350, 0.02f}}};
 class PlaneFiller {
  public:
   PlaneFiller(const PlaneFillInput& in, SegmentCells& cells, const ViewBorder& border,
-              ImageView<float> disparity, ImageView<std::uint8_t> state, const PyramidKernels& kernels)
-      : in_(in), cells_(cells), border_(border), disparity_(disparity), state_(state), kernels_(kernels) {}
+              const SegmentMatch& match, ImageView<float> disparity, ImageView<std::uint8_t> state,
+              const PyramidKernels& kernels)
+      : in_(in),
+        cells_(cells),
+        border_(border),
+        match_(match),
+        disparity_(disparity),
+        state_(state),
+        kernels_(kernels) {}
 
   // Reads and writes pixels of the segment only: segments may be filled in any order.
-  void fill(std::span<const Cell> segment, float min_coverage, std::uint32_t seed) {
-    int sources = 0, holes = 0, cells_with_sources = 0;
-    for (const Cell c : segment) {
-      sources += cells_.sources(c);
-      holes += cells_.holes(c);
-      cells_with_sources += cells_.sources(c) > 0;
-    }
-    if (holes == 0 || sources < kMinSources ||
-        static_cast<float>(sources) < min_coverage * static_cast<float>(sources + holes))
-      return;
-    const Pixel origin = cells_.firstPixel(segment[0]);
-    const PlanePoints points = sample(segment, cells_with_sources, origin);
-    const PlaneFit fit = fitPlane(points, seed, kernels_);
-    if (fit.inliers == 0 ||
-        static_cast<float>(fit.inliers) < kMinInlierRatio * static_cast<float>(points.count))
-      return;
-    for (const Cell c : segment)
-      if (cells_.holes(c) > 0) fillCell(c, origin, fit);
+  void fill(const Segment& segment, float min_coverage, std::uint32_t seed) {
+    const Census count = countPixels(segment);
+    if (count.holes == 0) return;
+    const std::optional<PlaneFit> fit = choosePlane(segment, count, min_coverage, seed);
+    if (!fit) return;
+    for (const Cell c : segment.members)
+      if (cells_.holes(c) > 0) fillCell(c, segment.origin(), *fit);
   }
 
   // The holes of a row beyond the border that share a segment with the source there.
@@ -65,13 +63,57 @@ class PlaneFiller {
   }
 
  private:
+  struct Census {
+    int sources = 0, holes = 0, cells_with_sources = 0;
+
+    bool has(float share, int part) const {
+      return static_cast<float>(part) >= share * static_cast<float>(sources + holes);
+    }
+  };
+
+  Census countPixels(const Segment& segment) const {
+    Census count;
+    for (const Cell c : segment.members) {
+      count.sources += cells_.sources(c);
+      count.holes += cells_.holes(c);
+      count.cells_with_sources += cells_.sources(c) > 0;
+    }
+    return count;
+  }
+
+  // The plane of the sources, if there are enough of them, or if the segment as a whole agrees with it; its
+  // own level if that stands out and explains it clearly better.
+  std::optional<PlaneFit> choosePlane(const Segment& segment, const Census& count, float min_coverage,
+                                      std::uint32_t seed) const {
+    std::optional<SegmentMatch::Level> level;
+    if (count.holes >= kMinSegment_px && count.has(kMinOpenShare, count.holes))
+      level = match_.levelOf(segment);
+    std::optional<PlaneFit> fit;
+    if (level || count.has(min_coverage, count.sources)) fit = planeOfSources(segment, count, seed);
+    if (!level || (fit && match_.scoreOf(segment, *fit) >= level->score - kScoreTolerance * level->deviation))
+      return fit;
+    return PlaneFit{{0, 0, level->disparity}, count.sources, level->disparity, level->disparity};
+  }
+
+  std::optional<PlaneFit> planeOfSources(const Segment& segment, const Census& count,
+                                         std::uint32_t seed) const {
+    if (count.sources < kMinSources) return {};
+    const PlanePoints points = sample(segment, count.cells_with_sources);
+    const PlaneFit fit = fitPlane(points, seed, kernels_);
+    if (fit.inliers == 0 ||
+        static_cast<float>(fit.inliers) < kMinInlierRatio * static_cast<float>(points.count))
+      return {};
+    return fit;
+  }
+
   // One source of each cell that has any, or of every second, third ... of them: as many as there is room
   // for.
-  PlanePoints sample(std::span<const Cell> segment, int cells_with_sources, Pixel origin) const {
+  PlanePoints sample(const Segment& segment, int cells_with_sources) const {
+    const Pixel origin = segment.origin();
     PlanePoints points;
     const int step = (cells_with_sources + PlanePoints::kCapacity - 1) / PlanePoints::kCapacity;
     int until_next = 0;
-    for (const Cell c : segment) {
+    for (const Cell c : segment.members) {
       if (cells_.sources(c) == 0 || until_next-- > 0) continue;
       until_next = step - 1;
       const Pixel p = cells_.findPixel(
@@ -86,10 +128,7 @@ class PlaneFiller {
     int open = 0;
     cells_.forEachPixel(cell, [&](Pixel p) {
       if (!isHole(disparity_.at(p.y, p.x), state_.at(p.y, p.x))) return;
-      // Beyond what supports it a plane soon leaves the surface: from there on it is taken to be level.
-      const float e =
-          std::clamp(fit.plane.at(static_cast<float>(p.x - origin.x), static_cast<float>(p.y - origin.y)),
-                     fit.low - kPlaneTolerance_px, fit.high + kPlaneTolerance_px);
+      const float e = fit.at(static_cast<float>(p.x - origin.x), static_cast<float>(p.y - origin.y));
       open += leavesBorderSource(p, origin, fit.plane) || !fillIfPossible(p, e);
     });
     cells_.setHoles(cell, open);
@@ -114,6 +153,7 @@ class PlaneFiller {
   const PlaneFillInput& in_;
   SegmentCells& cells_;
   const ViewBorder& border_;
+  const SegmentMatch& match_;
   ImageView<float> disparity_;
   ImageView<std::uint8_t> state_;
   const PyramidKernels& kernels_;
@@ -142,13 +182,16 @@ void fillFromPlanes(const PlaneFillInput& in, ImageView<float> disparity, ImageV
   });
 
   scratch.border.find(disparity, state, threads);
-  PlaneFiller filler(in, cells, scratch.border, disparity, state, kernels);
+  scratch.match.prepare(in.left, in.right, static_cast<int>(in.min_disparity),
+                        static_cast<int>(in.max_disparity - in.min_disparity) + 1, kernels, threads);
+  PlaneFiller filler(in, cells, scratch.border, scratch.match, disparity, state, kernels);
   for (std::size_t i = 0; i < kDivisions.size(); ++i) {
     const PlaneFillScratch::Segments& s = scratch.divisions[i];
     cells.group(s.labels, s.count);
     parallelStrips(threads, s.count, kMinSegmentsPerStrip, [&](int begin, int end) {
       for (int j = begin; j < end; ++j)
-        filler.fill(cells.segment(j), kDivisions[i].min_coverage, static_cast<std::uint32_t>(j));
+        filler.fill({cells.segment(j), cells, s.labels}, kDivisions[i].min_coverage,
+                    static_cast<std::uint32_t>(j));
     });
   }
   parallelStrips(threads, disparity.height, kMinRowsPerStrip, [&](int begin, int end) {

@@ -8,6 +8,7 @@
 #include "pyramid/kernels.h"
 #include "pyramid/scale.h"
 #include "pyramid/segment_cells.h"
+#include "pyramid/segment_match.h"
 #include "pyramid/segmentation.h"
 #include "pyramid/view_border.h"
 
@@ -15,7 +16,8 @@ namespace pomona {
 
 /// Everything has the size of the left image; sides are at most 32767.
 struct PlaneFillInput {
-  GuideView guide;                         ///< the left image
+  GuideView guide;                            ///< the left image
+  ImageView<const std::uint8_t> left, right;  ///< in gray; empty: no segment is matched as a whole
   ImageView<const float> right_disparity;  ///< the right view's map, d = x_left - x_right; NaN where unknown
   int scale = 4;            ///< segments are found in the image reduced so many times; 1, 2 or 4
   float min_disparity = 0;  ///< a plane fills with disparities from here ...
@@ -35,6 +37,7 @@ struct PlaneFillScratch {
   std::array<Segments, 2> divisions;
   SegmentCells cells;
   ViewBorder border;
+  SegmentMatch match;
 };
 
 /// Fills holes (see holes.h) of `disparity` in place and gives them state kFilledPlane. Other pixels keep
@@ -47,7 +50,13 @@ struct PlaneFillScratch {
 /// the coarse division), and if half of them lie near the plane. Its holes take the plane's disparities, but
 /// none more than 1 px beyond those of the sources near the plane, where they are within the range and hide
 /// nothing that the right view sees. The fine division comes first; the coarse one fills what it leaves, from
-/// measured pixels again. Holes beyond the border of the right view (see view_border.h) take no plane that is
+/// measured pixels again.
+///
+/// Segments of which at least 30 % and 100 px are holes are also matched as a whole (see segment_match.h). If
+/// one level stands out, a plane need not cover so much of the segment; but if it explains the segment worse
+/// than the level, by more than 1.5 deviations, the holes take the level.
+///
+/// Holes beyond the border of the right view (see view_border.h) take no plane that is
 /// 1 px or more off the source that they lie beyond; what both divisions leave of them takes that source's
 /// disparity, if it belongs to the same coarse segment. The result does not depend on the number of threads.
 void fillFromPlanes(const PlaneFillInput& in, ImageView<float> disparity, ImageView<std::uint8_t> state,

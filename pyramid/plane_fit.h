@@ -1,6 +1,7 @@
 // The plane d = a x + b y + c that most of a set of measured disparities lie near.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "pyramid/kernels.h"
@@ -25,13 +26,19 @@ struct PlanePoints {
   }
 };
 
+constexpr float kPlaneTolerance_px = 1.0f;
+
 struct PlaneFit {
   DisparityPlane plane;
   int inliers;      ///< points less than kPlaneTolerance_px away from the plane; 0 if there is no plane
   float low, high;  ///< their smallest and largest disparity
+
+  /// Beyond what supports it a plane soon leaves the surface: from there on it is taken to be level.
+  float at(float x, float y) const {
+    return std::clamp(plane.at(x, y), low - kPlaneTolerance_px, high + kPlaneTolerance_px);
+  }
 };
 
-constexpr float kPlaneTolerance_px = 1.0f;
 constexpr float kMaxPlaneSlope = 0.6f;  ///< of |a| and |b|; steeper surfaces show themselves to one view only
 
 /// RANSAC (M. A. Fischler and R. C. Bolles, "Random sample consensus", Comm. ACM 24(6), 1981): of planes

@@ -30,6 +30,10 @@ class SegmentCells {
   std::span<const Cell> segment(int i) const {
     return {cells_.data() + segment_begin_[i], cells_.data() + segment_begin_[i + 1]};
   }
+  int columns() const { return columns_; }
+  int rows() const { return rows_; }
+  int width(Cell c) const { return column_begin_[c.x + 1] - column_begin_[c.x]; }
+  int height(Cell c) const { return row_begin_[c.y + 1] - row_begin_[c.y]; }
   int sources(Cell c) const { return sources_[index(c)]; }
   int holes(Cell c) const { return holes_[index(c)]; }
   void setHoles(Cell c, int holes) { holes_[index(c)] = static_cast<std::uint8_t>(holes); }

@@ -151,7 +151,7 @@ class Smoke(unittest.TestCase):
     def test_no_kernel_is_forgotten(self):
         root = SCRIPT.parent.parent
         timed = set(re.findall(r"TIMED\((?!table)\w+, (\w+)", (root / "bench/speed/kernels.cc").read_text()))
-        for folder in ("sgm", "filters", "pyramid"):
+        for folder in ("sgm", "filters", "pyramid", "camera"):
             kernels = re.findall(r"^  \w+ \(\*(\w+)", (root / folder / "kernels.h").read_text(), re.MULTILINE)
             self.assertTrue(kernels)
             self.assertEqual(set(kernels) - timed, set(), folder)

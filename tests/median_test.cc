@@ -28,6 +28,9 @@ void expectTwin(const Map<float>& map, MedianScratch& scratch) {
           medianFilter(in.view(), out.view(), size, filterKernels(isa), scratch, threads);
           ASSERT_TRUE(sameBits(out.map(), expected));
           ASSERT_TRUE(out.frameIsIntact());
+          medianFilter(in.view(), in.view(), size, filterKernels(isa), scratch, threads);
+          ASSERT_TRUE(sameBits(in.map(), expected)) << "in place";
+          ASSERT_TRUE(in.frameIsIntact());
         }
   }
 }

@@ -44,6 +44,8 @@ struct Scene {
   }
   PlaneFillInput input() const {
     return {.guide = guide.guide(),
+            .left = left_gray.width() > 0 ? left_gray.view() : ImageView<const std::uint8_t>(),
+            .right = right_gray.width() > 0 ? right_gray.view() : ImageView<const std::uint8_t>(),
             .right_disparity = right.view(),
             .scale = scale,
             .min_disparity = min_disparity,
@@ -56,7 +58,19 @@ struct Scene {
   float min_disparity = 0, max_disparity = 63;
   Padded<float> disparity, right;
   Padded<std::uint8_t> state, guide;
+  Padded<std::uint8_t> left_gray{0, 0, 0}, right_gray{0, 0, 0};
 };
+
+// Gray views of a bare wall `level` px away, with texture of one gray value.
+void paintBare(Scene& s, int level) {
+  std::mt19937 random(12);
+  std::vector<std::uint8_t> wall(static_cast<std::size_t>(s.width * s.height + level));
+  for (std::uint8_t& v : wall) v = static_cast<std::uint8_t>(90 + random() % 3);
+  const auto at = [&](int y, int x) { return wall[static_cast<std::size_t>(y * s.width + x)]; };
+  s.left_gray = Padded<std::uint8_t>(s.width, s.height, 1).fill([&](int y, int x, int) { return at(y, x); });
+  s.right_gray =
+      Padded<std::uint8_t>(s.width, s.height, 1).fill([&](int y, int x, int) { return at(y, x + level); });
+}
 
 TEST(FillFromPlanes, HolesTakeThePlaneOfTheirSegment) {
   for (int scale : {1, 2, 4})
@@ -161,6 +175,43 @@ TEST(FillFromPlanes, WhatNoPlaneClaimsBeyondTheRightViewsBorderContinuesLevelWit
   }
 }
 
+TEST(FillFromPlanes, ABareWallTakesItsOwnLevelNotThatOfWhatStandsBeforeIt) {
+  for (const bool has_views : {false, true}) {
+    Scene s;
+    s.guide.fill([](int, int, int) { return std::uint8_t{90}; });
+    s.disparity.fill([](int, int, int) { return 30.0f; });
+    s.digBox(0, 40, 96, 152, PixelState::kMismatched);  // what is left is what the wall's neighbour lent it
+    if (has_views) paintBare(s, 11);
+    s.fill();
+    for (int y = 0; y < 96; ++y)
+      for (int x = 40; x < 192; ++x)
+        ASSERT_NEAR(s.disparity.at(y, x), has_views ? 11 : 30, 0.3f) << x << ' ' << y;
+  }
+}
+
+TEST(FillFromPlanes, APlaneThatTheWallAgreesWithStaysAndMayCoverLittle) {
+  for (const bool has_views : {false, true}) {
+    Scene s;
+    s.guide.fill([](int, int, int) { return std::uint8_t{90}; });
+    const auto slanted = [](int y, int x) {
+      return 11.2f - 0.001f * static_cast<float>(x) - 0.002f * static_cast<float>(y);
+    };
+    s.disparity.fill([&](int y, int x, int) { return slanted(y, x); });
+    for (int y = 0; y < 96; ++y)
+      for (int x = 0; x < 192; ++x)
+        if (y % 12 > 0 || x % 12 > 0) s.dig(y, x, PixelState::kMismatched);  // 0.7 % are left
+    if (has_views) paintBare(s, 11);
+    s.fill();
+    for (int y = 1; y < 96; y += 6)
+      for (int x = 1; x < 191; x += 6) {
+        ASSERT_EQ(s.stateAt(y, x), has_views ? PixelState::kFilledPlane : PixelState::kMismatched);
+        if (has_views) {
+          ASSERT_NEAR(s.disparity.at(y, x), slanted(y, x), 0.02f) << x << ' ' << y;
+        }
+      }
+  }
+}
+
 TEST(FillFromPlanes, FillsWithinTheRangeOnly) {
   Scene s;
   s.digBox(10, 10, 60, 60, PixelState::kOccluded);
@@ -233,6 +284,7 @@ Scene randomScene(int width, int height, int channels, int scale, unsigned seed)
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x)
       if (random() % 3 == 0) s.dig(y, x, reasons[random() % 5]);
+  paintBare(s, 17);
   return s;
 }
 

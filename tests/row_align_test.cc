@@ -46,9 +46,10 @@ void expectTwin(int type, double tolerance) {
       cv::Mat poisoned(size.height, size.width + 5, type, cv::Scalar(77));
       cv::Mat view = poisoned.colRange(2, 2 + size.width);
       cv::RNG(9).fill(view, cv::RNG::UNIFORM, 0, double{std::numeric_limits<T>::max()} + 1);
-      for (const int threads : {1, 3}) {
+      for (const Isa isa : usableIsas()) {
+        const int threads = isa == Isa::kScalar ? 1 : 3;
         Image<T> out;
-        alignRows<T>(viewOf<T>(view), offset, out, threads);
+        alignRows<T>(viewOf<T>(view), offset, out, cameraKernels(isa), threads);
         ASSERT_EQ(out.width(), size.width);
         ASSERT_EQ(out.height(), size.height);
         for (int y = 0; y < size.height; ++y)
@@ -69,7 +70,7 @@ TEST(AlignRows, MovesByWholeRowsExactly) {
   cv::Mat view(20, 30, CV_8U);
   cv::randu(view, 0, 256);
   Image<std::uint8_t> out;
-  alignRows<std::uint8_t>(viewOf<std::uint8_t>(view), {3, 0, 0}, out, 1);
+  alignRows<std::uint8_t>(viewOf<std::uint8_t>(view), {3, 0, 0}, out, cameraKernels(chooseIsa({})), 1);
   for (int y = 0; y < 20; ++y)
     for (int x = 0; x < 30; ++x)
       ASSERT_EQ(out.row(y)[x], view.at<std::uint8_t>(std::min(y + 3, 19), x));  // the last row repeats

@@ -27,7 +27,8 @@ in its place, in ms and in percent of the whole; CPU time of one thread, the lea
 over the scenes. A stage that takes pixels away or puts better ones in may save more time in those after it than it
 takes: its cost is then negative. So are costs of next to nothing, by chance.
 
-The visibility test has no option; it is part of segment planes and rays.
+The visibility test and the match of whole segments have no option: they are part of segment planes, and the former of
+rays, too.
 )";
 
 struct RungResult {

@@ -29,6 +29,13 @@ void runDeepInput(KernelMaterial& m, const KernelTables& tables) {
   m.made_gray.set(m.deep_left, m.deep_right, 1, tables.sgm);
 }
 
+void runRows(KernelMaterial& m, const KernelTables& tables) {
+  const MatchInput& in = m.input.views();
+  m.row_check.measure(in.left, in.right, 0, m.size.disparities, tables.camera);
+  alignRows(in.right, {0.3f, 0, 0}, m.moved, tables.camera, 1);
+  alignRows(std::as_const(m.right16).view(), {0.3f, 0, 0}, m.moved16, tables.camera, 1);
+}
+
 KernelDriver matchDriver(const char* name, const Options& o, SubpixelMethod subpixel,
                          std::function<void(const KernelMaterial&, MatchInput&, MatchOptions&)> change = {}) {
   const auto run = [o, subpixel, change](KernelMaterial& m, const KernelTables& tables) {
@@ -126,6 +133,8 @@ void runFilling(KernelMaterial& m, const KernelTables& tables) {
   copyPixels<float>(m.sparse_disparity.view(), m.disparity);
   copyPixels<std::uint8_t>(m.sparse_state.view(), m.state);
   fillFromPlanes({.guide = m.guide(),
+                  .left = m.input.views().left,
+                  .right = m.input.views().right,
                   .right_disparity = m.right_disparity.view(),
                   .max_disparity = static_cast<float>(m.size.disparities - 1)},
                  m.disparity.view(), m.state.view(), m.plane_fill, tables.pyramid, 1);
@@ -192,6 +201,7 @@ std::vector<KernelDriver> kernelDrivers() {
   std::vector<KernelDriver> drivers = matchDrivers();
   drivers.insert(drivers.end(), {{"input", 1, runInput},
                                  {"input-16-bit", 1, runDeepInput},
+                                 {"rows", 1, runRows},
                                  {"checks", 1, runChecks},
                                  {"trust", 1, runTrust},
                                  {"medians", 1, runMedians},

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "bench/speed/inputs.h"
+#include "camera/row_align.h"
+#include "camera/row_check.h"
 #include "engine/input.h"
 #include "engine/trust.h"
 #include "filters/joint_bilateral.h"
@@ -29,6 +31,7 @@ struct KernelTables {
   SgmKernels sgm;
   FilterKernels filters;
   PyramidKernels pyramid;
+  CameraKernels camera;
 };
 
 /// What the stages work on: the pair, and the maps that the stages before them make of it.
@@ -55,6 +58,9 @@ struct KernelMaterial {
 
   // Outputs and scratch.
   InputPair made_gray;
+  RowCheck row_check;
+  Image<std::uint8_t> moved;
+  Image<std::uint16_t> moved16;
   SgmMatcher matcher;
   MatchMaps matched;
   Image<float> disparity, quarter_disparity;

@@ -15,7 +15,7 @@ namespace {
 
 /// The tables of one instruction set, every kernel timed.
 KernelTables timedTables(Isa isa) {
-  KernelTables t{sgmKernels(isa), filterKernels(isa), pyramidKernels(isa)};
+  KernelTables t{sgmKernels(isa), filterKernels(isa), pyramidKernels(isa), cameraKernels(isa)};
 #define TIMED(table, kernel) t.table.kernel = timed<#kernel>(t.table.kernel)
   TIMED(sgm, gray8), TIMED(sgm, gray16), TIMED(sgm, score);
   TIMED(sgm, census8), TIMED(sgm, census16), TIMED(sgm, sobel), TIMED(sgm, colorSteps);
@@ -23,8 +23,8 @@ KernelTables timedTables(Isa isa) {
       TIMED(sgm, support);
   TIMED(sgm, prior), TIMED(sgm, aggregateFirst), TIMED(sgm, aggregateLast);
   TIMED(sgm, refine[0]), TIMED(sgm, refine[1]), TIMED(sgm, refine[2]), TIMED(sgm, refine[3]);
-  TIMED(filters, contradictions), TIMED(filters, metColumns), TIMED(filters, trustCodes);
-  TIMED(filters, breaks), TIMED(filters, links);
+  TIMED(filters, leftRight), TIMED(filters, trustCodes), TIMED(filters, trustPairs);
+  TIMED(filters, findRuns), TIMED(filters, uniteRuns);
   TIMED(filters, median3x3), TIMED(filters, median5x5), TIMED(filters, jointBilateral);
   TIMED(filters, nearJumps), TIMED(filters, weightedMedian);
   TIMED(filters, refinePlanes[0]), TIMED(filters, refinePlanes[1]);
@@ -36,6 +36,8 @@ KernelTables timedTables(Isa isa) {
   TIMED(pyramid, difference1), TIMED(pyramid, largestDifference3);
   TIMED(pyramid, countSourcesAndHoles), TIMED(pyramid, countNearPlane);
   TIMED(pyramid, packColors), TIMED(pyramid, gatherCandidates), TIMED(pyramid, candidateMedian);
+  TIMED(camera, interpolate8), TIMED(camera, interpolate16);
+  TIMED(camera, reduceBlocks), TIMED(camera, contrast);
 #undef TIMED
   return t;
 }

@@ -31,7 +31,15 @@ inline Floats load(const float* p) {
   __builtin_memcpy(&v, p, sizeof v);
   return v;
 }
+inline Ints load(const std::int32_t* p) {
+  Ints v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
+}
 inline void store(float* p, Floats v) {
+  __builtin_memcpy(p, &v, sizeof v);
+}
+inline void store(std::int32_t* p, Ints v) {
   __builtin_memcpy(p, &v, sizeof v);
 }
 /// Stores the first `count` lanes only; all of them if there are fewer.
@@ -74,12 +82,45 @@ inline Ints isNan(Floats v) {
   return v != v;
 }
 
+inline bool anyNan(Floats v) {
+#if defined(__AVX512F__)
+  return _mm512_cmp_ps_mask(v, v, _CMP_UNORD_Q) != 0;
+#elif defined(__AVX2__)
+  return _mm256_movemask_ps(_mm256_cmp_ps(v, v, _CMP_UNORD_Q)) != 0;
+#else
+  const Ints nan = isNan(v);
+  std::int32_t any = 0;
+  for (int i = 0; i < kFloatLanes; ++i) any |= nan[i];
+  return any != 0;
+#endif
+}
+
 /// The bits of a vector, read as the other type.
 inline Ints bitsOf(Floats v) {
   return reinterpret_cast<Ints>(v);
 }
 inline Floats floatsOf(Ints v) {
   return reinterpret_cast<Floats>(v);
+}
+
+/// 32-bit elements that lie apart from each other in memory; floatsOf() reads them as what they are.
+inline Ints gather(const void* base, Ints index) {
+#if defined(__AVX512F__)
+  return reinterpret_cast<Ints>(_mm512_i32gather_epi32(reinterpret_cast<__m512i>(index), base, 4));
+#elif defined(__AVX2__)
+  return reinterpret_cast<Ints>(
+      _mm256_i32gather_epi32(static_cast<const int*>(base), reinterpret_cast<__m256i>(index), 4));
+#else
+  Ints v;
+  for (int i = 0; i < kFloatLanes; ++i) v[i] = static_cast<const std::int32_t*>(base)[index[i]];
+  return v;
+#endif
+}
+/// out[i] = from[index[i]]; GCC 12 makes no gathers of such a loop.
+inline void gatherRow(const float* from, const std::int32_t* index, int count, float* __restrict out) {
+  int i = 0;
+  for (; i + kFloatLanes <= count; i += kFloatLanes) store(out + i, floatsOf(gather(from, load(index + i))));
+  for (; i < count; ++i) out[i] = from[index[i]];
 }
 
 }  // namespace

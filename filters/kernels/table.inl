@@ -14,13 +14,13 @@
 namespace pomona {
 namespace {
 
-constexpr FilterKernels kTable = {.contradictions = contradictionsOf,
-                                  .metColumns = metColumnsOf,
+constexpr FilterKernels kTable = {.leftRight = leftRightRow,
                                   .trustCodes = trustCodesOf,
-                                  .breaks = breaksOf,
-                                  .links = linksOf,
-                                  .median3x3 = medianRow<3>,
-                                  .median5x5 = medianRow<5>,
+                                  .trustPairs = trustPairsOf,
+                                  .findRuns = findRuns,
+                                  .uniteRuns = uniteRuns,
+                                  .median3x3 = medianRow3x3,
+                                  .median5x5 = medianRow5x5,
                                   .jointBilateral = jointBilateralBlock,
                                   .nearJumps = markNearJumps,
                                   .weightedMedian = weightedMedianAt,

@@ -1,4 +1,5 @@
-// What the trust in a disparity rests on, packed (engine/trust.h). GCC vectorises the loop as it stands.
+// What the trust in a disparity rests on, packed, and the trust itself (engine/trust.h). GCC vectorises the
+// loops as they stand.
 #pragma once
 
 #include "filters/kernels/left_right.inl"
@@ -21,6 +22,15 @@ inline void trustCodesOf(const TrustPixels& p, std::uint16_t* __restrict codes) 
     const int c = static_cast<int>(curvature < kLast ? curvature : kLast);
     codes[i] = static_cast<std::uint16_t>((m * kTrustSteps + c) * kTrustSteps + r);
   }
+}
+
+inline void trustPairsOf(const TrustPair* of_code, const std::uint16_t* codes, const std::uint8_t* state,
+                         std::uint8_t measured, int count, float* __restrict confidence,
+                         float* __restrict sigma_px) {
+  std::int32_t index[kMatchChunk];
+  for (int i = 0; i < count; ++i) index[i] = 2 * (state[i] == measured ? codes[i] : kTrustCodes + state[i]);
+  gatherRow(&of_code->confidence, index, count, confidence);
+  gatherRow(&of_code->sigma_px, index, count, sigma_px);
 }
 
 }  // namespace

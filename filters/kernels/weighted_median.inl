@@ -1,26 +1,8 @@
 // Colour-weighted median at chosen pixels; every lane of a vector is one of them.
 #pragma once
 
-#if defined(__AVX2__)
-#include <immintrin.h>
-#endif
-
 namespace pomona {
 namespace {
-
-/// Elements that lie apart from each other in memory.
-inline Ints gather(const void* base, Ints index) {
-#if defined(__AVX512F__)
-  return reinterpret_cast<Ints>(_mm512_i32gather_epi32(reinterpret_cast<__m512i>(index), base, 4));
-#elif defined(__AVX2__)
-  return reinterpret_cast<Ints>(
-      _mm256_i32gather_epi32(static_cast<const int*>(base), reinterpret_cast<__m256i>(index), 4));
-#else
-  Ints v;
-  for (int i = 0; i < kFloatLanes; ++i) v[i] = static_cast<const std::int32_t*>(base)[index[i]];
-  return v;
-#endif
-}
 
 /// Maps the bits of a float to an integer of the same order, and back.
 inline Ints orderedBits(Ints bits) {

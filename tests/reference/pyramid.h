@@ -205,4 +205,29 @@ struct HoleFill {
   }
 };
 
+/// 25 times what a gray value is above the mean of the 5x5 around it, 0 beyond +-limit.
+inline int localResidual(const Map& gray, int y, int x, int limit) {
+  int residual = static_cast<int>(25 * gray.at(y, x));
+  for (int dy = -2; dy <= 2; ++dy)
+    for (int dx = -2; dx <= 2; ++dx) residual -= static_cast<int>(gray.clamped(y + dy, x + dx));
+  return std::abs(residual) <= limit ? residual : 0;
+}
+
+/// The correlation of two views' residuals over the pixels (x, y) for which wanted(y, x), each at its
+/// disparity.
+inline double residualCorrelation(const Map& left, const Map& right, int limit,
+                                  const std::function<bool(int, int)>& wanted,
+                                  const std::function<int(int, int)>& disparity) {
+  double products = 0, squares = 0;
+  for (int y = 0; y < left.height; ++y)
+    for (int x = 0; x < left.width; ++x) {
+      const int other = x - disparity(y, x), a = localResidual(left, y, x, limit);
+      if (!wanted(y, x) || a == 0 || other < 0 || other >= right.width) continue;
+      const int b = localResidual(right, y, other, limit);
+      products += a * b;
+      squares += b * b;
+    }
+  return squares == 0 ? 0 : products / std::sqrt(squares);
+}
+
 }  // namespace pomona::reference

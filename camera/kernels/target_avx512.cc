@@ -1,0 +1,9 @@
+#include "camera/kernels/table.inl"
+
+namespace pomona {
+
+const CameraKernels& cameraKernelsAvx512() {
+  return kTable;
+}
+
+}  // namespace pomona
