@@ -20,6 +20,8 @@
 namespace pomona {
 namespace {
 
+constexpr int kNotAligned = 3;  // exit status
+
 struct CheckArguments {
   std::string left, right;
   int min_disparity = 0, max_disparity = 0;
@@ -44,7 +46,7 @@ void check(const CheckArguments& arguments) {
   if (std::isnan(rows.median_px)) {
     std::cout << "rows      unknown: fewer than 10 points have a match within " << kReach_px
               << " px of their row\n";
-    return;
+    throw CLI::RuntimeError(kNotAligned);
   }
   std::array<char, 128> text;
   std::snprintf(text.data(), text.size(),
@@ -54,15 +56,20 @@ void check(const CheckArguments& arguments) {
   StereoResult judged;
   judged.row_offset_px = rows.median_px;
   judged.row_error_px = rows.worst_px;
-  std::cout << (judged.rowsAreOff()
-                    ? "verdict   the views are not aligned: calibrate, or rectify them (--rig)\n"
-                    : "verdict   aligned\n");
+  if (judged.rowsAreOff()) {
+    std::cout << "verdict   the views are not aligned: calibrate, or rectify them (--rig)\n";
+    throw CLI::RuntimeError(kNotAligned);
+  }
+  std::cout << "verdict   aligned\n";
 }
 
 }  // namespace
 
 void addCheck(CLI::App& app) {
-  CLI::App* verb = app.add_subcommand("check", "Measure whether the rows of a rectified pair match");
+  CLI::App* verb =
+      app.add_subcommand("check",
+                         "Measure whether the rows of a rectified pair match: exit status 3 if not, or if "
+                         "that cannot be told");
   const auto arguments = std::make_shared<CheckArguments>();  // lives as long as the callback
   verb->add_option("left", arguments->left, "Left image")->required();
   verb->add_option("right", arguments->right, "Right image")->required();

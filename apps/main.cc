@@ -54,6 +54,8 @@ int main(int argc, char** argv) {
     return fail(std::string(e.what()) + "; allowed: a number (of 32 bits, where whole)", kBadInput);
   } catch (const CLI::ValidationError& e) {
     return fail(e.what(), kBadInput);
+  } catch (const CLI::RuntimeError& e) {  // a verb's verdict, which it has printed
+    return std::cout.flush() ? e.get_exit_code() : fail("standard output: cannot be written", kBadInput);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help and --version
     return fail(std::string(e.what()) + " (see pomona --help)", kBadUsage);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/rig_options.h"
 #include "apps/scene_files.h"
 #include "apps/verbs.h"
 #include "datasets/chessboard.h"
@@ -56,11 +57,8 @@ void parseRange(const std::string& option, const std::string& text, double& low,
     throw std::invalid_argument(option + " is '" + text + "'; allowed: FROM..TO, for example 0.6..0.75");
 }
 
-// One of the renderer's own rigs, or a file.
 StereoRig rigOf(const RenderArguments& arguments) {
-  const std::vector<std::string> names = rigNames();
-  const bool named = std::find(names.begin(), names.end(), arguments.rig) != names.end();
-  const StereoRig rig = named ? namedRig(arguments.rig) : readRig(arguments.rig);
+  const StereoRig rig = rigNamed(arguments.rig);
   if (arguments.size.empty()) return rig;
   const cv::Size size = parseSize(arguments.size);
   return resized(rig, size.width, size.height);

@@ -13,6 +13,7 @@
 #include "apps/print.h"
 #include "apps/rig_options.h"
 #include "apps/verbs.h"
+#include "datasets/rendering/named_rigs.h"
 
 namespace pomona {
 namespace {
@@ -75,7 +76,8 @@ void addRigPaths(CLI::App& verb, RigPaths& paths) {
   verb.add_option(
           "rig", paths.files,
           "Calibration: OpenCV or ROS YAML, Kalibr's camchain, Middlebury's calib.txt, KITTI's; two files "
-          "where left and right have one each, or the folder with left.yaml and right.yaml")
+          "where left and right have one each, or the folder with left.yaml and right.yaml; or a rig of "
+          "pomona render's, such as seed-003")
       ->required()
       ->expected(1, 2);
   verb.add_option("--unit", paths.unit, "Unit of its lengths, if not the one of its format: m, cm or mm")
@@ -86,6 +88,12 @@ void addRigPaths(CLI::App& verb, RigPaths& paths) {
       ->check(CLI::Range(0, 99));
 }
 
+StereoRig rigNamed(const std::string& name_or_path) {
+  const std::vector<std::string> names = rigNames();
+  const bool named = std::find(names.begin(), names.end(), name_or_path) != names.end();
+  return named ? namedRig(name_or_path) : readRig(name_or_path);
+}
+
 StereoRig readRig(const RigPaths& paths) {
   RigFileOptions options;
   if (!paths.unit.empty()) options.unit_m = paths.unit == "m" ? 1 : paths.unit == "cm" ? 0.01 : 0.001;
@@ -93,8 +101,9 @@ StereoRig readRig(const RigPaths& paths) {
     options.left_camera = paths.cameras[0];
     options.right_camera = paths.cameras[1];
   }
-  return paths.files.size() == 2 ? readRigPair(paths.files[0], paths.files[1], options)
-                                 : readRig(paths.files[0], options);
+  if (paths.files.size() == 2) return readRigPair(paths.files[0], paths.files[1], options);
+  return paths.unit.empty() && paths.cameras.empty() ? rigNamed(paths.files[0])
+                                                     : readRig(paths.files[0], options);
 }
 
 void addRig(CLI::App& app) {

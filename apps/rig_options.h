@@ -18,6 +18,9 @@ struct RigPaths {
   std::vector<int> cameras;        ///< none, or left and right
 };
 
+/// One of the renderer's own rigs (rigNames()), or else a file.
+StereoRig rigNamed(const std::string& name_or_path);
+
 void addRigPaths(CLI::App& verb, RigPaths& paths);
 StereoRig readRig(const RigPaths& paths);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "camera/errors_alike.h"
 #include "camera/region.h"
@@ -78,6 +79,22 @@ void set(ObjectMeasurement& m, const FittedSphere& sphere, const StereoCalibrati
   m.support_px = static_cast<int>(sphere.support_px);
 }
 
+// How far the near sides of all the spheres that were tried lie from the chosen one's, by how much speaks for
+// each: a leaf and the fruit behind it may both make a sphere. What is farther off than its radius is not the
+// same object.
+double doubtOf(const FittedSphere& chosen, const std::vector<FittedSphere>& tried) {
+  const auto near = [](const FittedSphere& s) { return cv::norm(s.center_m) - s.radius_m; };
+  double weights = 0, squares_m2 = 0;
+  for (const FittedSphere& other : tried) {
+    const double off_m = near(other) - near(chosen);
+    if (std::abs(off_m) > chosen.radius_m || other.score <= 0) continue;
+    const double weight = other.score * other.score;
+    weights += weight;
+    squares_m2 += weight * off_m * off_m;
+  }
+  return std::sqrt(squares_m2 / weights);
+}
+
 // By how much a sphere is larger than its region, where nothing else told its size. Something else before the
 // object, taken for its middle, makes it so, and too near.
 double excessOf(const FittedSphere& sphere, const Outline& outline, const StereoCalibration& c) {
@@ -132,14 +149,15 @@ ObjectMeasurement measureObject(const StereoResult& result, const StereoCalibrat
   if (options.shape == ObjectShape::kSphere) {
     const RadiusPrior prior{options.radius_m, options.radius_sigma_m};
     const RegionSamples few = samplesOf(result, calibration, outline, mask, kSamplesToVote);
-    std::optional<FittedSphere> best;
+    std::vector<FittedSphere> spheres;
     for (const FittedSphere& guess : vote(few, outline, prior, calibration))
-      if (const auto sphere = refine(guess, samples, outline, prior, calibration))
-        if (!best || sphere->score > best->score) best = sphere;
-    if (best && best->score > kLeastScore) {
+      if (const auto sphere = refine(guess, samples, outline, prior, calibration)) spheres.push_back(*sphere);
+    const auto best = std::max_element(spheres.begin(), spheres.end(),
+                                       [](const auto& a, const auto& b) { return a.score < b.score; });
+    if (best != spheres.end() && best->score > kLeastScore) {
       set(m, *best, calibration);
-      if (prior.radius_m <= 0)
-        m.distance_sigma_m = std::hypot(m.distance_sigma_m, excessOf(*best, outline, calibration));
+      const double excess_m = prior.radius_m > 0 ? 0 : excessOf(*best, outline, calibration);
+      m.distance_sigma_m = std::hypot(m.distance_sigma_m, doubtOf(*best, spheres), excess_m);
     }
   } else if (const auto surface = fitSurface(samples)) {
     set(m, *surface, calibration);

@@ -45,7 +45,7 @@ class Rectifier {
   static void fill(Map& map, const CameraModel& camera, const cv::Matx33d& rotation, double cx_px,
                    const StereoCalibration& calibration);
   template <typename T, int kChannels>
-  static void applyRow(const Source* source, int width, const T* view, std::ptrdiff_t stride, T* out);
+  static void applyRow(const Source* source, int width, const cv::Mat& view, T* out);
   template <typename T, int kChannels>
   static void apply(const Map& map, const cv::Mat& view, cv::Mat& rectified, int threads);
 

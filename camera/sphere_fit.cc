@@ -76,6 +76,10 @@ class SphereVotes {
   Votes votes_;
 };
 
+// What is seen through a sphere speaks more clearly against it than what lies on it does for it, which may be
+// something flat before the object.
+constexpr double kSeenThrough = 2;
+
 // The radius that the outline tells of, where nothing else does: an object may fill it, or half of it, or be
 // cut off by it. Standard deviation as a share of the radius.
 constexpr double kRoughly = 0.3;
@@ -99,10 +103,13 @@ struct NormalEquations {
   }
 };
 
-NormalEquations normalEquations(const FittedSphere& sphere, const RegionSamples& region, double most_reach_px,
+NormalEquations normalEquations(const FittedSphere& sphere, const RegionSamples& region,
                                 const StereoCalibration& calibration) {
   constexpr double kSteepest = 0.45;  // cosine of the slant against the line of sight
-  constexpr double kLeastReach_px = 0.6;
+  // A leaf lies 1 or 2 cm before its fruit: far away, that is less than a pixel, and no outlier to a wider
+  // reach.
+  constexpr double kReach_sigmas = 2, kMostReach_px = 1;
+  constexpr double kShapeError = 0.02;  // of the radius: no fruit is a sphere
   const double focal_baseline = calibration.focal_px * calibration.baseline_m;
   const double independent = region.pixels_each / kAlike_px;
   NormalEquations equations;
@@ -116,7 +123,8 @@ NormalEquations normalEquations(const FittedSphere& sphere, const RegionSamples&
     const double parallax_px = focal_baseline / (t * s.ray[2]);
     const double residual = s.parallax_px - parallax_px;
     const double sigma_px = std::max(s.sigma_px, kSmallestSigma_px);
-    const double reach_px = std::clamp(3 * sigma_px, kLeastReach_px, most_reach_px);
+    const double shape_px = kShapeError * sphere.radius_m * parallax_px / t;
+    const double reach_px = std::min(kReach_sigmas * std::hypot(sigma_px, shape_px), kMostReach_px);
     if (residual <= -reach_px) equations.seen_through += s.central_trust;
     if (std::abs(residual) >= reach_px) continue;
     const double u = residual / reach_px, biweight = (1 - u * u) * (1 - u * u);
@@ -138,7 +146,7 @@ NormalEquations normalEquations(const FittedSphere& sphere, const RegionSamples&
 std::vector<FittedSphere> vote(const RegionSamples& region, const Outline& outline, const RadiusPrior& prior,
                                const StereoCalibration& calibration) {
   constexpr double kStep = 0.3, kRatio = 1.33;  // of the outline's radius; between radii
-  constexpr double kApart_px = 2;
+  constexpr std::size_t kMostGuesses = 6;
   SphereVotes votes(region, prior, calibration);
   std::vector<Candidate> coarse;
   for (int dy = -2; dy <= 2; ++dy)
@@ -156,8 +164,11 @@ std::vector<FittedSphere> vote(const RegionSamples& region, const Outline& outli
 
   std::vector<Candidate> best;
   for (const Candidate& c : coarse) {
-    const auto same = [&](const Candidate& b) { return std::abs(b.parallax_px - c.parallax_px) < kApart_px; };
-    if (c.score > 0 && best.size() < 4 && std::none_of(best.begin(), best.end(), same)) best.push_back(c);
+    const auto same = [&](const Candidate& b) {
+      return std::abs(b.parallax_px - c.parallax_px) < Votes::kApart_px;
+    };
+    if (c.score > 0 && best.size() < kMostGuesses && std::none_of(best.begin(), best.end(), same))
+      best.push_back(c);
   }
   std::vector<FittedSphere> spheres;
   for (const Candidate& c : best) spheres.push_back(votes.sphereOf(c));
@@ -168,12 +179,10 @@ std::optional<FittedSphere> refine(const FittedSphere& guess, const RegionSample
                                    const Outline& outline, const RadiusPrior& prior,
                                    const StereoCalibration& calibration) {
   constexpr int kRounds = 7;
-  constexpr double kFirstReach_px = 2, kLastReach_px = 1;
   constexpr double kSmallest = 0.4, kLargest = 1.4, kSigmas = 3;  // of the outline's radius; of the prior's
   FittedSphere sphere = guess;
   for (int round = 0;; ++round) {
-    const double reach_px = std::max(kFirstReach_px - 0.2 * round, kLastReach_px);
-    NormalEquations equations = normalEquations(sphere, region, reach_px, calibration);
+    NormalEquations equations = normalEquations(sphere, region, calibration);
     const double distance_m = cv::norm(sphere.center_m);
     const double outline_m = outline.radius_px / calibration.focal_px * distance_m;
     const RadiusPrior radius = prior.radius_m > 0 ? prior : RadiusPrior{outline_m, kRoughly * outline_m};
@@ -187,8 +196,8 @@ std::optional<FittedSphere> refine(const FittedSphere& guess, const RegionSample
       sphere.covariance = covariance * std::max(1.0, equations.squares / equations.trust);
       sphere.support_px = equations.pixels;
       const double off = (sphere.radius_m - radius.radius_m) / radius.sigma_m;
-      sphere.score =
-          (equations.central_trust - equations.seen_through) / centralTrust(region) / (1 + 0.5 * off * off);
+      sphere.score = (equations.central_trust - kSeenThrough * equations.seen_through) /
+                     centralTrust(region) / (1 + 0.5 * off * off);
       return sphere;
     }
     cv::Vec4d step = covariance * equations.gradient;

@@ -20,8 +20,8 @@ struct FittedSphere {
   double radius_m = 0;
   cv::Matx44d covariance;  ///< of the centre (x, y, z) and the radius, in m^2, without errors of shape
   double support_px = 0;   ///< pixels that lie on it
-  /// How much speaks for it: the share of the region's central trust that lies on it, less that which is seen
-  /// through it, less where its radius is not the expected one; at most 1.
+  /// How much speaks for it: the share of the region's central trust that lies on it, less twice that which
+  /// is seen through it, less where its radius is not the expected one; at most 1.
   double score = 0;
 };
 
@@ -33,7 +33,7 @@ struct FittedSphere {
 /// measured along b: the factor of p depends on the place in the image alone. So for each b and alpha every
 /// pixel votes for one q, with its trust and a weight that falls from the middle of the outline; those on a
 /// sphere like that vote for the same. Of a coarse grid of b and alpha around the outline's, those with most
-/// votes within 1 px: up to four, at least 2 px apart, best first. Of the spheres only centre and radius are
+/// votes within 1/2 px: up to six, at least 1 px apart, best first. Of the spheres only centre and radius are
 /// set.
 std::vector<FittedSphere> vote(const RegionSamples& region, const Outline& outline, const RadiusPrior& prior,
                                const StereoCalibration& calibration);

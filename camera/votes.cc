@@ -6,16 +6,19 @@
 namespace pomona {
 namespace {
 
-constexpr int kBinsPerPixel = 4;
-constexpr int kWindow_px = 1;
-constexpr int kWindow = kWindow_px * kBinsPerPixel;
+constexpr int kBinsPerPixel = 8;
+constexpr int kWindow = kBinsPerPixel / 2;
 
 }  // namespace
 
-Votes::Votes(double largest) : bins_(static_cast<std::size_t>(largest * kBinsPerPixel) + 2 + kWindow) {}
+Votes::Votes(double largest) : bins_(static_cast<std::size_t>(largest * kBinsPerPixel) + 2 + kWindow) {
+  clear();
+}
 
 void Votes::clear() {
   std::fill(bins_.begin(), bins_.end(), 0.0);
+  begin_ = bins_.size();
+  end_ = 0;
 }
 
 void Votes::add(double value, double weight) {
@@ -25,18 +28,20 @@ void Votes::add(double value, double weight) {
   const double rest = place - static_cast<double>(bin);
   bins_[bin] += weight * (1 - rest);
   bins_[bin + 1] += weight * rest;
+  begin_ = std::min(begin_, bin);
+  end_ = std::max(end_, bin + 2);
 }
 
 Votes::Peak Votes::peak(double other_than) const {
-  constexpr double kApart_px = 2;
   const auto isOther = [&](std::size_t begin) {
     const double middle_px = (static_cast<double>(begin) + 0.5 * (kWindow - 1)) / kBinsPerPixel;
     return std::abs(middle_px - other_than) >= kApart_px;
   };
   std::size_t best = 0;
   double best_sum = 0, sum = 0;
-  for (std::size_t i = 0; i < kWindow - 1; ++i) sum += bins_[i];
-  for (std::size_t begin = 0; begin + kWindow <= bins_.size(); ++begin) {
+  const std::size_t first = begin_ - std::min<std::size_t>(begin_, kWindow - 1);
+  for (std::size_t i = first; i < std::min(first + kWindow - 1, end_); ++i) sum += bins_[i];
+  for (std::size_t begin = first; begin < end_ && begin + kWindow <= bins_.size(); ++begin) {
     sum += bins_[begin + kWindow - 1];
     if (sum > best_sum && isOther(begin)) {
       best_sum = sum;

@@ -19,12 +19,15 @@ class Votes {
 
   void clear();
   void add(double value, double weight);
-  /// The window of 1 px with most votes: their sum and their mean. Windows that come within 2 px of
+  /// Peaks that are closer than this are one.
+  static constexpr double kApart_px = 1;
+  /// The window of 1/2 px with most votes: their sum and their mean. Windows that come within kApart_px of
   /// `other_than` do not count.
   Peak peak(double other_than = -10) const;
 
  private:
   std::vector<double> bins_;
+  std::size_t begin_ = 0, end_ = 0;  // of the bins with votes
 };
 
 double largestParallax(const RegionSamples& region);

@@ -69,6 +69,7 @@ MiddleburyCalibration readMiddleburyCalibration(const std::string& path) {
   result.vmax = optionalNumber(file, "vmax", -kLargestSize, kLargestSize);
   result.dyavg = optionalNumber(file, "dyavg", 0.0, kLargestOffset);
   result.dymax = optionalNumber(file, "dymax", 0.0, kLargestOffset);
+  if (!file.has("doffs")) file.require("cam1");  // else nobody knows what infinity is
   return result;
 }
 

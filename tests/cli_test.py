@@ -387,10 +387,10 @@ class BadViews(CommandTest):
 
 class BadSideFiles(CommandTest):
     def test_calibration(self):
-        cam0 = "cam0=[96 0 47.5; 0 96 31.5; 0 0 1]\n"
+        cam0 = "cam0=[96 0 47.5; 0 96 31.5; 0 0 1]\ndoffs=0\n"
         self.refuse("absent.txt", "--calib", "absent.txt")
-        for text, part in (("", "no known calibration"), (cam0, "line 1: the file ends without 'baseline='"),
-                           (cam0 + "baseline=-1\n", "line 2: baseline is '-1'"),
+        for text, part in (("", "no known calibration"), (cam0, "line 2: the file ends without 'baseline='"),
+                           (cam0 + "baseline=-1\n", "line 3: baseline is '-1'"),
                            (cam0 + "baseline=120\nwidth=1482\n", "is for images of 1482x64"),
                            (cam0 + "baseline=120\nndisp=97\n", "ndisp of"),
                            ("\x00\xff\x01", "control character")):

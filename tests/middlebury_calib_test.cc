@@ -36,7 +36,7 @@ TEST_F(MiddleburyCalib, ReadsEveryKeyInMetresAndPixels) {
 }
 
 TEST_F(MiddleburyCalib, MinimalFileAndLooseSpelling) {
-  const auto c = read("\r\n  cam0 = [ 500 0 10 ;0 500 20; 0 0 1 ] \r\nbaseline= 100");
+  const auto c = read("\r\n  cam0 = [ 500 0 10 ;0 500 20; 0 0 1 ] \r\nbaseline= 100\ndoffs=0");
   EXPECT_EQ(c.stereo.focal_px, 500);
   EXPECT_EQ(c.stereo.baseline_m, 0.1);
   EXPECT_EQ(c.stereo.doffs_px, 0);
@@ -56,6 +56,7 @@ TEST_F(MiddleburyCalib, RefusesNonsenseNamingLineAndKey) {
       {"", "line 1", "'cam0='"},
       {kCam0, "line 1", "'baseline='"},
       {"baseline=100\n\n", "line 2", "'cam0='"},
+      {kCam0 + "baseline=100\n", "line 2", "'cam1='"},
       {kCam0 + "baseline=0\n", "line 2", "baseline is '0'"},
       {kCam0 + "baseline=-5\n", "line 2", "baseline is '-5'"},
       {kCam0 + "baseline=nan\n", "line 2", "baseline is 'nan'"},

@@ -106,6 +106,29 @@ TEST(Rectify, IsTheLensModelForEveryTypeAndThread) {
   }
 }
 
+TEST(Rectify, ColorsAreRectifiedLikeGrayOfEachChannel) {
+  for (const cv::Size size : {cv::Size(161, 101), cv::Size(64, 48), cv::Size(17, 12)}) {
+    StereoRig rig = unrectifiedRig(size.width, size.height);
+    if (size.width == 64) {  // shows all of the views, up to their last pixel
+      rig.rectification = rectificationOf(rig);
+      rig.rectification->calibration.focal_px *= 0.6;
+    }
+    Rectifier rectifier(rig), channel(rig);
+    const cv::Mat left = noise(size.width, size.height, CV_8UC3, 5), right = ~left;
+    rectifier.rectify(left, right, 2);
+    for (int k = 0; k < 3; ++k) {
+      cv::Mat left_channel, right_channel, found;
+      cv::extractChannel(left, left_channel, k);
+      cv::extractChannel(right, right_channel, k);
+      channel.rectify(left_channel, right_channel, 1);
+      cv::extractChannel(rectifier.left(), found, k);
+      EXPECT_EQ(cv::norm(found, channel.left(), cv::NORM_INF), 0) << size << " channel " << k;
+      cv::extractChannel(rectifier.right(), found, k);
+      EXPECT_EQ(cv::norm(found, channel.right(), cv::NORM_INF), 0) << size << " channel " << k;
+    }
+  }
+}
+
 TEST(Rectify, StatedRectificationMayShowTheOutside) {
   StereoRig rig = unrectifiedRig(160, 100);
   rig.rectification = rectificationOf(rig);

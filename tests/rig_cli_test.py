@@ -61,9 +61,9 @@ class RigTest(unittest.TestCase):
     def command(self, *arguments):
         return run(*arguments, folder=self.folder)
 
-    def accept(self, *arguments):
+    def accept(self, *arguments, status=0):
         result = self.command(*arguments)
-        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.returncode, status, result.stderr)
         self.assertEqual(result.stderr, "")
         return result.stdout
 
@@ -98,7 +98,7 @@ class RigTest(unittest.TestCase):
 
         # ... and with it, the rows of a pair of pictures match, which they don't without.
         self.assertIn("not aligned", self.accept("check", self.board("left01.png"), self.board("right01.png"),
-                                                 "--max-disparity", "300"))
+                                                 "--max-disparity", "300", status=3))
         self.accept("rectify", self.board("left01.png"), self.board("right01.png"), "--rig", "rig.yml", "-o", "pair")
         self.assertEqual(sorted(os.listdir(os.path.join(self.folder, "pair"))), ["calib.txt", "im0.png", "im1.png"])
         shown = self.accept("rig", "show", "pair/calib.txt")
@@ -136,6 +136,16 @@ class RigTest(unittest.TestCase):
     def test_check_of_a_rectified_pair(self):
         self.accept("render", "boxes", "--size", "480x360", "-o", "scene")
         self.assertIn("verdict   aligned", self.accept("check", "scene/im0.png", "scene/im1.png"))
+        # Nothing of one scene is in the other: no verdict, and no success.
+        self.accept("render", "planes", "--seed", "9", "--size", "480x360", "-o", "other")
+        self.assertNotIn("verdict   aligned", self.accept("check", "scene/im0.png", "other/im1.png", status=3))
+
+    def test_named_rigs(self):
+        shown = self.accept("rig", "show", "seed-003")
+        self.assertIn("1280 x 720", shown)
+        self.assertAlmostEqual(self.number_after(shown, "baseline"), 0.12, delta=1e-9)
+        self.accept("rig", "convert", "seed-003-b60", "-o", "rig.yml")
+        self.assertEqual(self.accept("rig", "show", "rig.yml"), self.accept("rig", "show", "seed-003-b60"))
 
     def test_refusals(self):
         self.refuse("no file matches 'left*.jpg'", "calibrate", "left*.jpg", "right*.jpg", "--square", "2cm", "-o",

@@ -292,7 +292,7 @@ TEST_F(RigFile, MiddleburyIsRectified) {
   EXPECT_NEAR(rectificationOf(rig).calibration.doffs_px, 31.086, 1e-9);
   EXPECT_EQ(rectificationOf(rig).calibration.num_disparities, 70);
   expectContains(
-      messageOf([&] { readRig(put("m.txt", "cam0=[900 0 3; 0 900 2; 0 0 1]\nbaseline=0.193\n")); }),
+      messageOf([&] { readRig(put("m.txt", "cam0=[900 0 3; 0 900 2; 0 0 1]\ndoffs=0\nbaseline=0.193\n")); }),
       "counts metres");
   expectContains(messageOf([&] {
                    readRig(put("d.txt",

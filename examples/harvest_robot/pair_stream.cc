@@ -5,40 +5,55 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace {
 
 class FolderStream : public PairStream {
  public:
-  explicit FolderStream(const std::string& folder)
-      : left_(filesOf(folder, "left")), right_(filesOf(folder, "right")) {
-    if (left_.empty() || left_.size() != right_.size())
-      throw std::runtime_error(folder + ": holds " + std::to_string(left_.size()) + " left* and " +
-                               std::to_string(right_.size()) + " right* pictures");
+  explicit FolderStream(const std::string& folder) : folder_(folder), names_(namesOf("left")) {
+    const std::vector<std::string> right = namesOf("right");
+    requirePartners("left", names_, "right", right);
+    requirePartners("right", right, "left", names_);
+    if (names_.empty()) throw std::runtime_error(folder + ": holds no left*.png or left*.jpg");
   }
   bool next(cv::Mat& left, cv::Mat& right) override {
-    if (at_ == left_.size()) return false;
-    left = cv::imread(left_[at_]);
-    right = cv::imread(right_[at_]);
-    if (left.empty() || right.empty())
-      throw std::runtime_error(left_[at_] + ": cannot be read, or its partner");
+    if (at_ == names_.size()) return false;
+    left = read("left" + names_[at_]);
+    right = read("right" + names_[at_]);
     ++at_;
     return true;
   }
 
  private:
-  static std::vector<std::string> filesOf(const std::string& folder, const std::string& side) {
-    std::vector<std::string> files;
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-      const std::string extension = entry.path().extension().string();
-      if (entry.path().filename().string().starts_with(side) && (extension == ".png" || extension == ".jpg"))
-        files.push_back(entry.path().string());
+  // What follows the side in the names of its pictures; numbers need no leading zeros.
+  std::vector<std::string> namesOf(const std::string& side) const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+      const std::string name = entry.path().filename().string(),
+                        extension = entry.path().extension().string();
+      if (name.starts_with(side) && (extension == ".png" || extension == ".jpg"))
+        names.push_back(name.substr(side.size()));
     }
-    std::sort(files.begin(), files.end());
-    return files;
+    std::sort(names.begin(), names.end(), [](const std::string& a, const std::string& b) {
+      return std::pair(a.size(), a) < std::pair(b.size(), b);
+    });
+    return names;
   }
-  std::vector<std::string> left_, right_;
+  void requirePartners(const std::string& side, const std::vector<std::string>& names,
+                       const std::string& other, const std::vector<std::string>& others) const {
+    for (const std::string& name : names)
+      if (std::find(others.begin(), others.end(), name) == others.end())
+        throw std::runtime_error(folder_ + ": " + side + name + " has no " + other + name);
+  }
+  cv::Mat read(const std::string& name) const {
+    cv::Mat picture = cv::imread(folder_ + "/" + name);
+    if (picture.empty()) throw std::runtime_error(folder_ + "/" + name + ": cannot be read as a picture");
+    return picture;
+  }
+  std::string folder_;
+  std::vector<std::string> names_;
   std::size_t at_ = 0;
 };
 

@@ -12,7 +12,7 @@ class PairStream {
   /// False at the end.
   virtual bool next(cv::Mat& left, cv::Mat& right) = 0;
 
-  /// `source`: a folder with left*.png and right*.png (or .jpg), which are sorted by name; a video, or the
-  /// number of a camera, whose frames hold both views side by side.
+  /// `source`: a folder with left*.png and right*.png (or .jpg), paired by what follows the side in their
+  /// names; a video, or the number of a camera, whose frames hold both views side by side.
   static std::unique_ptr<PairStream> open(const std::string& source);
 };

@@ -31,13 +31,15 @@ std::vector<Pick> pickingList(const pomona::StereoResult& result,
   pomona::MeasureOptions apples;
   apples.radius_m = 0.038;
   apples.radius_sigma_m = 0.006;
-  std::vector<Pick> picks;
-  for (const Contour& contour : ripeOutlines(bgr)) {
-    const pomona::Polygon outline(contour.begin(), contour.end());
-    Pick pick{cv::boundingRect(contour), pomona::measureObject(result, calibration, outline, apples)};
-    if (pick.where.ok()) pick.box = boxOf(pick.where, calibration) & cv::Rect({}, bgr.size());
-    picks.push_back(pick);
-  }
+  const std::vector<Contour> outlines = ripeOutlines(bgr);
+  std::vector<Pick> picks(outlines.size());
+  cv::parallel_for_(cv::Range(0, static_cast<int>(picks.size())), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i) {
+      const pomona::Polygon outline(outlines[i].begin(), outlines[i].end());
+      picks[i] = {cv::boundingRect(outlines[i]), pomona::measureObject(result, calibration, outline, apples)};
+      if (picks[i].where.ok()) picks[i].box = boxOf(picks[i].where, calibration) & cv::Rect({}, bgr.size());
+    }
+  });
   // Measured ones first, by what is seen of them; then each against those before it.
   std::sort(picks.begin(), picks.end(), [](const Pick& a, const Pick& b) {
     return std::pair(!a.where.ok(), -a.where.support_px) < std::pair(!b.where.ok(), -b.where.support_px);

@@ -1,17 +1,18 @@
 #include "ripe_fruits.h"
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
 #include <opencv2/imgproc.hpp>
 
 namespace {
 
-// Red to yellow, not pale and not dark. OpenCV's hue counts 2 degrees.
+// Crimson to yellow, not pale and not dark. OpenCV's hue counts 2 degrees; with blue taken for red and red
+// for blue, these colours do not lie about its beginning.
 cv::Mat ripeMask(const cv::Mat& bgr) {
-  cv::Mat hsv, red, crimson, ripe;
-  cv::cvtColor(bgr, hsv, cv::COLOR_BGR2HSV);
-  cv::inRange(hsv, cv::Scalar(0, 120, 50), cv::Scalar(30, 255, 255), red);
-  cv::inRange(hsv, cv::Scalar(172, 120, 50), cv::Scalar(180, 255, 255), crimson);
-  cv::bitwise_or(red, crimson, ripe);
+  cv::Mat hsv, ripe;
+  cv::cvtColor(bgr, hsv, cv::COLOR_RGB2HSV);
+  cv::inRange(hsv, cv::Scalar(90, 120, 50), cv::Scalar(128, 255, 255), ripe);
   cv::morphologyEx(ripe, ripe, cv::MORPH_OPEN, cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5}));
   return ripe;
 }
@@ -74,8 +75,11 @@ std::vector<Contour> ripeOutlines(const cv::Mat& bgr) {
   std::vector<Contour> pieces, outlines;
   cv::findContours(ripeMask(bgr), pieces, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
   std::erase_if(pieces, isSmall);
-  for (const Contour& piece : pieces)
-    for (const Contour& part : cut(piece))
-      if (!isSmall(part)) outlines.push_back(part);
+  std::vector<std::vector<Contour>> parts(pieces.size());
+  cv::parallel_for_(cv::Range(0, static_cast<int>(pieces.size())), [&](const cv::Range& range) {
+    for (int i = range.start; i < range.end; ++i) parts[i] = cut(pieces[i]);
+  });
+  for (const std::vector<Contour>& of_piece : parts)
+    std::copy_if(of_piece.begin(), of_piece.end(), std::back_inserter(outlines), std::not_fn(isSmall));
   return outlines;
 }

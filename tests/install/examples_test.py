@@ -103,6 +103,13 @@ with tempfile.TemporaryDirectory() as folder:
     for nearest, part in (("abc", "HARVEST_NEAREST_M is 'abc'"), ("3", "HARVEST_FARTHEST_M is 3 to 1.98 m"),
                           ("0.001", "at most 1024 disparities")):
         assert part in refusal(HARVEST, calibration, frames, HARVEST_NEAREST_M=nearest), part
+    unequal = os.path.join(folder, "unequal")
+    os.mkdir(unequal)
+    for name in ("left0.png", "left1.png", "right1.png", "right2.png"):  # as many of each side, but no pairs
+        shutil.copy(os.path.join(frames, "left0.png"), os.path.join(unequal, name))
+    assert "left0.png has no right0.png" in refusal(HARVEST, calibration, unequal)
+    os.remove(os.path.join(unequal, "left0.png"))
+    assert "right2.png has no left2.png" in refusal(HARVEST, calibration, unequal)
     assert "compute_disparity: left is an empty image" in refusal(COMPUTE, "absent.png", "absent.png", "out.png")
 
     out = os.path.join(folder, "disparity.png")
