@@ -112,9 +112,11 @@ TEST(Matching, KernelsAreTheTextbookOnEveryInstructionSet) {
                                               : DistanceWeights{0.5f, 0.5f};
           const bool euclidean = distance == DescriptorDistance::kEuclidean;
           std::vector<float> out(9);
-          if (type == CV_8U && euclidean) kernels.squaredEuclid8(a.ptr(), b.ptr(), length, 9, out.data());
-          if (type == CV_8U && !euclidean)
-            kernels.weighted8(a.ptr(), b.ptr(), length, 9, weights, out.data());
+          const auto run_bytes = [&](float limit, std::vector<float>& to) {
+            euclidean ? kernels.squaredEuclid8(a.ptr(), b.ptr(), length, 9, limit, to.data())
+                      : kernels.weighted8(a.ptr(), b.ptr(), length, 9, weights, limit, to.data());
+          };
+          if (type == CV_8U) run_bytes(INFINITY, out);
           if (type == CV_32F && euclidean)
             kernels.squaredEuclid32(a.ptr<float>(), b.ptr<float>(), length, 9, out.data());
           if (type == CV_32F && !euclidean)
@@ -122,6 +124,15 @@ TEST(Matching, KernelsAreTheTextbookOnEveryInstructionSet) {
           for (int j = 0; j < 9; ++j) {
             const double slow = slowDistance(a, 0, b, j, distance), expected = euclidean ? slow * slow : slow;
             EXPECT_NEAR(out[j], expected, 2e-6 * expected);
+          }
+          if (type != CV_8U) continue;
+          for (const float limit : {out[2], std::nextafter(out[2], INFINITY), 0.6f * out[2]}) {
+            std::vector<float> limited(9);
+            run_bytes(limit, limited);
+            for (int j = 0; j < 9; ++j) {
+              EXPECT_GE(limited[j], std::min(out[j], limit));
+              EXPECT_LE(limited[j], out[j]);
+            }
           }
         }
 }

@@ -145,6 +145,17 @@ TEST(PluginFile, WithoutWhatItNeedsIsRefused) {
   expectContains(refusal(kBroken + "/BadSet.so"), "ratio is '1.5'");
 }
 
+TEST(PluginFile, ThatWouldEndTheProgramIsRefused) {
+  const std::string ends = ".so: ends the program as it is loaded, ";
+  EXPECT_EQ(refusal(kBroken + "/ThrowsAtOpening.so"),
+            kBroken + "/ThrowsAtOpening" + ends + "by an exception: no static luck");
+  EXPECT_EQ(refusal(kBroken + "/LeavesAtOpening.so"),
+            kBroken + "/LeavesAtOpening" + ends + "by leaving it with status 3");
+  for (const std::string name : {"CrashesAtOpening", "CrashesInCreate"})
+    EXPECT_TRUE(refusal(kBroken + "/" + name + ".so").starts_with(kBroken + "/" + name + ends + "by "))
+        << name;
+}
+
 TEST(PluginFile, ThatIsNoLibraryIsRefused) {
   const TemporaryFolder folder;
   const std::string text = folder / "text.so", empty = folder / "empty.so", cut = folder / "cut.so";
@@ -167,7 +178,7 @@ TEST(PluginHost, KeepsTheGoodAndNamesTheOthers) {
   PluginHost host({kGood, kBroken, kGood, "/no/such/folder"});
   ASSERT_EQ(host.plugins().size(), 1u);
   EXPECT_EQ(host.plugin("middle").path(), kGood + "/middle.so");
-  EXPECT_EQ(host.refused().size(), 16u);  // 15 files, and the folder
+  EXPECT_EQ(host.refused().size(), 20u);  // 19 files, and the folder
   std::optional<std::string> same_name, folder;
   for (const auto& [path, reason] : host.refused()) {
     if (path.ends_with("SameName.so")) same_name = reason;

@@ -84,7 +84,7 @@ class Range(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertIn("middle: The point", done.stdout)
         refused = [line for line in done.stdout.splitlines() if line.startswith("not loaded: ")]
-        self.assertEqual(len(refused), 15)
+        self.assertEqual(len(refused), 19)
         self.assertTrue(any("ThrowsInCreate.so: no luck" in line for line in refused))
 
     def test_csv_json_and_ply_tell_the_same(self):

@@ -227,7 +227,7 @@ TEST_F(SegmentRecognitionPlugin, NothingNearIsAResult) {
   settings.assign(std::vector<std::string>{"objects=" + path, "far_m=0.2"});
   const SparseResult result =
       plugin_.run(room().pair.left, room().pair.right, room().scene.pair.calibration, settings);
-  EXPECT_EQ(result.objects.at(0).why_not, "0 of at least 6 features match");
+  EXPECT_EQ(result.objects.at(0).why_not, "0 of at least 4 features match");
   EXPECT_TRUE(result.points.empty());
 }
 

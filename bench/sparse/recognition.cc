@@ -175,12 +175,10 @@ std::vector<Way> ways(int repetitions) {
   all.emplace_back("+ E", frontal, published, repetitions);
   published.filter = FeatureFilter::kDisparity;
   all.emplace_back("+ E + D (`variant=faithful`)", frontal, published, repetitions);
-  RecognitionOptions quick;
-  quick.sensitivity = 1;
-  all.emplace_back("`views=frontal`, `picture_sensitivity=1`, `sensitivity=1`",
-                   coversDatabase(FeatureKind::kRootSift, 1, {}), quick, repetitions);
-  all.emplace_back("default", coversDatabase(FeatureKind::kRootSift, 2, wideYaws()), RecognitionOptions(),
+  all.emplace_back("default", coversDatabase(FeatureKind::kRootSift, 2, {}), RecognitionOptions(),
                    repetitions);
+  all.emplace_back("`views=wide`", coversDatabase(FeatureKind::kRootSift, 2, wideYaws()),
+                   RecognitionOptions(), repetitions);
   return all;
 }
 

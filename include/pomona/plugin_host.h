@@ -24,8 +24,9 @@ struct PluginRunOptions {
 /// A plugin that was loaded. Holds the file open for as long as it lives. One thread at a time.
 class LoadedPlugin {
  public:
-  /// Throws std::runtime_error "path: reason" for a file that is no plugin, was built for another version, or
-  /// whose plugin throws when it is made or declares nonsense.
+  /// Throws std::runtime_error "path: reason" for a file that is no plugin, was built for another version,
+  /// whose plugin throws when it is made or declares nonsense, or that would end the program as it is loaded,
+  /// which is tried in a forked child first.
   explicit LoadedPlugin(const std::string& path);
   ~LoadedPlugin();
   LoadedPlugin(LoadedPlugin&&) noexcept;
@@ -47,6 +48,8 @@ class LoadedPlugin {
 
  private:
   struct State;
+  static std::unique_ptr<State> load(const std::string& path);
+
   std::unique_ptr<State> state_;
 };
 

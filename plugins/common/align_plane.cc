@@ -17,6 +17,7 @@ struct NormalEquations {
   Square matrix = Square::zeros();
   Row right_side = Row::all(0);
   double weights = 0, squares = 0;
+  std::vector<Row> strips;  // what each upright strip of the outline has in right_side
 };
 
 double medianOf(std::vector<double> values) {
@@ -43,6 +44,8 @@ class Alignment {
     box_ = box - cv::Point(0, top_);
     plane_.origin_px.y -= top_;
     half_ = std::max(1.0, 0.5 * std::max(box.width, box.height));
+    constexpr int kStrips = 16, kNarrowest_px = 6;
+    strip_px_ = std::max(kNarrowest_px, (box.width + kStrips - 1) / kStrips);
     left(band).convertTo(left_, CV_32F);
     right(band).convertTo(right_, CV_32F);
   }
@@ -59,11 +62,7 @@ class Alignment {
       if (equations.weights < kLeastPixels || !invert(equations.matrix, inverse)) return false;
       const Row step = inverse * equations.right_side;
       apply(step);
-      // Neighbouring pixels err together: the number of independent ones is that of blurred 3 x 3 blocks.
-      // What interpolation and the sampling of the views leave, however large the outline, adds to that.
-      constexpr double kPixelsPerSample = 9, kModel_px = 0.01;
-      const double variance = equations.squares / equations.weights;
-      plane_.sigma_px = std::sqrt(kModel_px * kModel_px + kPixelsPerSample * variance * inverse(0, 0));
+      plane_.sigma_px = std::sqrt(varianceOf(equations, inverse));
       if (std::abs(step[0]) + std::abs(step[1]) + std::abs(step[2]) < kStill_px) break;
     }
     return true;
@@ -100,6 +99,23 @@ class Alignment {
     return invertible;
   }
 
+  // Of the disparity. Neighbouring pixels err together: the number of independent ones is at most that of
+  // blurred 3 x 3 blocks. Those of an upright edge do along all of it, and so does what is not flat: by how
+  // much the strips disagree has that in it, too (White 1980; Liang & Zeger 1986). What interpolation leaves,
+  // however large the outline, adds to that.
+  static double varianceOf(const NormalEquations& equations, const Square& inverse) {
+    constexpr double kPixelsPerSample = 9, kModel_px = 0.015;
+    const double noise = kPixelsPerSample * equations.squares / equations.weights * inverse(0, 0);
+    const auto strips = static_cast<double>(equations.strips.size());
+    double disagreement = 0;
+    for (const Row& strip : equations.strips) {
+      const double moves_px = (inverse * strip)[0];
+      disagreement += moves_px * moves_px;
+    }
+    disagreement *= strips / std::max(1.0, strips - kUnknowns);
+    return kModel_px * kModel_px + std::max(noise, disagreement);
+  }
+
   // What the right view shows where the plane sends the pixels of the box, and how that changes along the
   // row.
   void look(cv::Mat& seen, cv::Mat& gradient) const {
@@ -118,6 +134,7 @@ class Alignment {
     cv::Mat seen, gradient;
     look(seen, gradient);
     std::vector<Row> rows;
+    std::vector<int> strips;
     std::vector<double> off, distances;
     for (int i = 0; i < box_.height; ++i)
       for (int k = 0; k < box_.width; ++k) {
@@ -126,17 +143,21 @@ class Alignment {
         const double by_disparity = -factor_ * change;  // a larger disparity looks farther to the left
         const double x = (box_.x + k - plane_.origin_px.x) / half_,
                      y = (box_.y + i - plane_.origin_px.y) / half_;
+        strips.push_back(k / strip_px_);
         rows.push_back({by_disparity, by_disparity * x, by_disparity * y, value, 1});
         off.push_back(blurred_left_.at<float>(i, k) - factor_ * value - offset_);
         distances.push_back(std::abs(off.back()));
       }
     NormalEquations equations;
     if (rows.empty()) return equations;
+    equations.strips.assign((box_.width - 1) / strip_px_ + 1, Row::all(0));
     const double limit = std::max(0.5, 1.345 * 1.4826 * medianOf(distances));  // gray values
     for (std::size_t n = 0; n < rows.size(); ++n) {
       const double weight = distances[n] <= limit ? 1 : limit / distances[n];
       equations.matrix += weight * (rows[n] * rows[n].t());
-      equations.right_side += rows[n] * (weight * off[n]);
+      const Row pulls = rows[n] * (weight * off[n]);
+      equations.right_side += pulls;
+      equations.strips[strips[n]] += pulls;
       equations.weights += weight;
       equations.squares += weight * off[n] * off[n];
     }
@@ -156,6 +177,7 @@ class Alignment {
   int top_ = 0;  // the row of the views that this object's pictures, box and plane begin with
   cv::Rect box_;
   double half_ = 1;
+  int strip_px_ = 1;
   cv::Mat mask_, left_, right_, blurred_left_, blurred_right_, right_gradient_;
 };
 

@@ -14,13 +14,14 @@ struct DistanceWeights {
 };
 
 /// out[i] = the distance of `query` to the i-th of `count` descriptors that lie one after the other in
-/// `others`; all have `length` values.
+/// `others`; all have `length` values. Of bytes, what is `limit` or more by a part of the sum may be that
+/// part.
 struct DistanceKernels {
   void (*squaredEuclid8)(const std::uint8_t* query, const std::uint8_t* others, int length, int count,
-                         float* out);
+                         float limit, float* out);
   void (*squaredEuclid32)(const float* query, const float* others, int length, int count, float* out);
   void (*weighted8)(const std::uint8_t* query, const std::uint8_t* others, int length, int count,
-                    DistanceWeights weights, float* out);
+                    DistanceWeights weights, float limit, float* out);
   void (*weighted32)(const float* query, const float* others, int length, int count, DistanceWeights weights,
                      float* out);
 };

@@ -18,6 +18,13 @@ std::vector<std::string> featureNames() {
   return names;
 }
 
+const std::string kSubstitute = "sift";
+
+bool isKnown(const std::string& features) {
+  const std::vector<std::string> names = featureNames();
+  return std::find(names.begin(), names.end(), features) != names.end();
+}
+
 // Changes with the settings, and with the files that they name.
 std::string keyOf(const PluginSettings& settings) {
   std::string key = std::to_string(settings.real("picture_sensitivity"));
@@ -33,20 +40,27 @@ std::string keyOf(const PluginSettings& settings) {
 
 }  // namespace
 
-std::vector<PluginParameter> KnownObjects::parameters() {
+std::vector<PluginParameter> KnownObjects::parameters(const std::string& views) {
+  const bool wide_first = views == "wide";  // the first choice is the default
   return {
       textParameter("objects", "A database (.objects), or pictures of the objects, separated by commas"),
       choiceParameter("features", "To learn pictures by; a database knows its own", featureNames()),
       choiceParameter("views", "To learn of each picture: as if turned by up to 60 degrees, or itself alone",
-                      {"wide", "frontal"}),
+                      wide_first ? std::vector<std::string>{"wide", "frontal"}
+                                 : std::vector<std::string>{"frontal", "wide"}),
       realParameter("picture_sensitivity", "Divides the contrast that features of pictures need", 2, 0.1, 20),
       textParameter("save_objects", "Database (.objects) to write what was learned to")};
 }
 
 std::vector<std::pair<std::string, std::string>> KnownObjects::faithful(const std::string& features) {
-  const std::vector<std::string> names = featureNames();
-  const bool known = std::find(names.begin(), names.end(), features) != names.end();
-  return {{"features", known ? features : "sift"}, {"views", "frontal"}, {"picture_sensitivity", "1"}};
+  return {{"features", isKnown(features) ? features : kSubstitute},
+          {"views", "frontal"},
+          {"picture_sensitivity", "1"}};
+}
+
+std::string KnownObjects::faithfulFeatures(const std::string& features) {
+  if (isKnown(features)) return "by " + features;
+  return "but by " + kSubstitute + " in place of " + features + ", which this build is without";
 }
 
 const ObjectDatabase& KnownObjects::open(const PluginSettings& settings) {

@@ -13,11 +13,13 @@ namespace pomona {
 /// Opens the objects that settings name, and keeps them for the next run, until the files change.
 class KnownObjects {
  public:
-  /// objects, features, views, picture_sensitivity, save_objects. By default pictures are learned thoroughly:
-  /// as if turned by up to 60 degrees, too, and with their fainter features.
-  static std::vector<PluginParameter> parameters();
+  /// objects, features, views, picture_sensitivity, save_objects. `views`: the default, "wide" (as if turned
+  /// by up to 60 degrees, too) or "frontal". Pictures are learned with their fainter features by default.
+  static std::vector<PluginParameter> parameters(const std::string& views);
   /// What makes them those of a published method: one view, `features` (SIFT where this build lacks them).
   static std::vector<std::pair<std::string, std::string>> faithful(const std::string& features);
+  /// What people are to know of that: "by surf-64", or that this build has SIFT in its place.
+  static std::string faithfulFeatures(const std::string& features);
 
   /// Throws as openObjects() does, and std::runtime_error if save_objects cannot be written.
   const ObjectDatabase& open(const PluginSettings& settings);

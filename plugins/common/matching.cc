@@ -78,20 +78,17 @@ View sortedView(const cv::Mat& descriptors, std::span<const cv::KeyPoint> keypoi
 class Matcher {
  public:
   Matcher(View left, View right, const MatchOptions& options, const RowBand& band)
-      : left_(std::move(left)), right_(std::move(right)), options_(options), band_(band) {}
+      : left_(std::move(left)),
+        right_(std::move(right)),
+        options_(options),
+        band_(band),
+        best_(static_cast<std::size_t>(left_.count())) {}
 
   std::vector<KeypointMatch> run() {
-    const int threads = options_.threads > 0 ? options_.threads : availableThreads();
-    const int parts = std::clamp(left_.count() / kFewestPerPart, 1, 2 * threads);
-    best_.resize(left_.count());
-    std::vector<std::vector<Nearest>> back(parts);
-    parallelFor(threads, parts, [&](int part) {
-      if (options_.mutual) back[part].resize(right_.count());
-      const auto edge = [&](int k) { return static_cast<int>(std::int64_t{left_.count()} * k / parts); };
-      for (int begin = edge(part); begin < edge(part + 1); begin += kQueryBlock)
-        compareBlock(begin, std::min(begin + kQueryBlock, edge(part + 1)), back[part]);
+    inParts(left_.count(), [&](int begin, int end) {
+      for (; begin < end; begin += kQueryBlock) compareBlock(begin, std::min(begin + kQueryBlock, end));
     });
-    return accepted(merged(back));
+    return accepted();
   }
 
  private:
@@ -102,83 +99,113 @@ class Matcher {
     int begin, end;
   };
 
-  /// The right keypoints in the rows that the band allows, or all of them.
-  Range candidatesOf(int left) const {
-    if (right_.pixels.empty()) return {0, right_.count()};
-    const float y = left_.pixels[left].y;
-    const auto first = std::partition_point(right_.pixels.begin(), right_.pixels.end(), [&](cv::Point2f p) {
-      return p.y - y < -band_.max_row_offset_px;
-    });
-    const auto last = std::partition_point(first, right_.pixels.end(),
-                                           [&](cv::Point2f p) { return p.y - y <= band_.max_row_offset_px; });
-    return {static_cast<int>(first - right_.pixels.begin()), static_cast<int>(last - right_.pixels.begin())};
+  /// Calls work(begin, end) for parts of [0, count), in threads.
+  template <typename Work>
+  void inParts(int count, Work work) const {
+    const int threads = options_.threads > 0 ? options_.threads : availableThreads();
+    const int parts = std::clamp(count / kFewestPerPart, 1, 2 * threads);
+    const auto edge = [&](int k) { return static_cast<int>(std::int64_t{count} * k / parts); };
+    parallelFor(threads, parts, [&](int part) { work(edge(part), edge(part + 1)); });
   }
 
-  void compareBlock(int begin, int end, std::vector<Nearest>& back) {
+  /// The keypoints of `other` in the rows that the band allows for number `i` of `view`, or all of them.
+  Range candidatesOf(const View& view, int i, const View& other) const {
+    if (other.pixels.empty()) return {0, other.count()};
+    const float y = view.pixels[i].y;
+    const auto first = std::partition_point(other.pixels.begin(), other.pixels.end(), [&](cv::Point2f p) {
+      return p.y - y < -band_.max_row_offset_px;
+    });
+    const auto last = std::partition_point(first, other.pixels.end(),
+                                           [&](cv::Point2f p) { return p.y - y <= band_.max_row_offset_px; });
+    return {static_cast<int>(first - other.pixels.begin()), static_cast<int>(last - other.pixels.begin())};
+  }
+
+  bool allows(int left, int right) const {
+    return right_.pixels.empty() || band_.allows(left_.pixels[left], right_.pixels[right]);
+  }
+
+  void compareBlock(int begin, int end) {
     Range all{right_.count(), 0}, range[kQueryBlock];
     for (int i = begin; i < end; ++i) {
-      range[i - begin] = candidatesOf(i);
+      range[i - begin] = candidatesOf(left_, i, right_);
       all.begin = std::min(all.begin, range[i - begin].begin);
       all.end = std::max(all.end, range[i - begin].end);
     }
     for (int block = all.begin; block < all.end; block += kCandidateBlock)
       for (int i = begin; i < end; ++i) {
         const Range r = range[i - begin];
-        compare(i, {std::max(r.begin, block), std::min(r.end, block + kCandidateBlock)}, back);
+        compare(i, {std::max(r.begin, block), std::min(r.end, block + kCandidateBlock)});
       }
   }
 
-  void compare(int left, Range range, std::vector<Nearest>& back) {
+  void compare(int left, Range range) {
     if (range.begin >= range.end) return;
     float distance[kCandidateBlock];
-    distances(left, range, distance);
     TwoNearest& best = best_[left];
-    for (int j = range.begin; j < range.end; ++j) {
-      const float d = distance[j - range.begin];
-      const bool nearer = d < best.second, nearer_back = options_.mutual && d < back[j].distance;
-      if (!(nearer || nearer_back)) continue;  // nearly always
-      if (!right_.pixels.empty() && !band_.allows(left_.pixels[left], right_.pixels[j])) continue;
-      if (nearer) best.offer(d, j);
-      if (nearer_back) back[j] = {d, left};
-    }
+    distances(left_, left, right_, range, best.second, distance);
+    for (int j = range.begin; j < range.end; ++j)
+      if (const float d = distance[j - range.begin]; d < best.second && allows(left, j)) best.offer(d, j);
   }
 
-  void distances(int left, Range range, float* out) const {
-    const int length = left_.descriptors.cols, count = range.end - range.begin;
+  /// Whether no other left descriptor is nearer to the right one than `left` at `distance`, nor as near and
+  /// before it.
+  bool isNearestBack(int left, int right, float distance) const {
+    const float limit = std::nextafter(distance, kInfinity);
+    const Range all = candidatesOf(right_, right, left_);
+    float back[kCandidateBlock];
+    for (int begin = all.begin; begin < all.end; begin += kCandidateBlock) {
+      const Range range{begin, std::min(all.end, begin + kCandidateBlock)};
+      distances(right_, right, left_, range, limit, back);
+      for (int i = range.begin; i < range.end; ++i)
+        if (const float d = back[i - range.begin];
+            (d < distance || (d == distance && i < left)) && allows(i, right))
+          return false;
+    }
+    return true;
+  }
+
+  /// Those of `limit` or more may be too small, but no smaller than that.
+  void distances(const View& view, int i, const View& others, Range range, float limit, float* out) const {
+    const int length = view.descriptors.cols, count = range.end - range.begin;
     const bool euclidean = options_.distance == DescriptorDistance::kEuclidean;
     const DistanceWeights weights = weightsOf(options_.distance);
-    if (left_.descriptors.type() == CV_8UC1) {
-      const auto* query = left_.descriptors.ptr(left);
-      const auto* others = right_.descriptors.ptr(range.begin);
-      euclidean ? kernels_.squaredEuclid8(query, others, length, count, out)
-                : kernels_.weighted8(query, others, length, count, weights, out);
+    if (view.descriptors.type() == CV_8UC1) {
+      const auto* query = view.descriptors.ptr(i);
+      const auto* candidates = others.descriptors.ptr(range.begin);
+      euclidean ? kernels_.squaredEuclid8(query, candidates, length, count, limit, out)
+                : kernels_.weighted8(query, candidates, length, count, weights, limit, out);
     } else {
-      const auto* query = left_.descriptors.ptr<float>(left);
-      const auto* others = right_.descriptors.ptr<float>(range.begin);
-      euclidean ? kernels_.squaredEuclid32(query, others, length, count, out)
-                : kernels_.weighted32(query, others, length, count, weights, out);
+      const auto* query = view.descriptors.ptr<float>(i);
+      const auto* candidates = others.descriptors.ptr<float>(range.begin);
+      euclidean ? kernels_.squaredEuclid32(query, candidates, length, count, out)
+                : kernels_.weighted32(query, candidates, length, count, weights, out);
     }
   }
 
-  /// The parts are in the order of the left keypoints, so the first of equally near ones stays the first.
-  static std::vector<Nearest> merged(std::vector<std::vector<Nearest>>& parts) {
-    std::vector<Nearest> all = std::move(parts.front());
-    for (std::size_t part = 1; part < parts.size(); ++part)
-      for (std::size_t j = 0; j < all.size(); ++j)
-        if (parts[part][j].distance < all[j].distance) all[j] = parts[part][j];
-    return all;
+  /// Whether the nearest of `left` is near and distinct enough.
+  bool passes(int left) const {
+    const float distance = root(best_[left].first.distance), second = root(best_[left].second);
+    return best_[left].first.index >= 0 && (options_.ratio >= 1 || distance < options_.ratio * second) &&
+           distance <= options_.max_distance;
   }
 
-  std::vector<KeypointMatch> accepted(const std::vector<Nearest>& back) const {
-    const bool squared = options_.distance == DescriptorDistance::kEuclidean;
-    const auto root = [&](float d) { return squared ? std::sqrt(d) : d; };
+  float root(float distance) const {
+    return options_.distance == DescriptorDistance::kEuclidean ? std::sqrt(distance) : distance;
+  }
+
+  std::vector<KeypointMatch> accepted() const {
+    std::vector<std::uint8_t> accepts(left_.count());
+    inParts(left_.count(), [&](int begin, int end) {
+      for (int i = begin; i < end; ++i) {
+        const Nearest& first = best_[i].first;
+        accepts[i] = passes(i) && (!options_.mutual || isNearestBack(i, first.index, first.distance));
+      }
+    });
     std::vector<KeypointMatch> matches;
     for (int i = 0; i < left_.count(); ++i) {
-      const Nearest first = best_[i].first;
-      if (first.index < 0 || (options_.mutual && back[first.index].index != i)) continue;
+      if (!accepts[i]) continue;
+      const Nearest& first = best_[i].first;
       const float distance = root(first.distance), second = root(best_[i].second);
-      const bool distinct = options_.ratio >= 1 || distance < options_.ratio * second;
-      if (!distinct || !(distance <= options_.max_distance)) continue;
       const float ratio = std::isinf(second) ? 0 : second > 0 ? distance / second : 1;
       matches.push_back({left_.index[i], right_.index[first.index], distance, ratio});
     }

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "datasets/image_file.h"
+#include "plugins/common/likeness.h"
 
 namespace pomona {
 namespace {
@@ -58,7 +59,7 @@ std::vector<double> wideYaws() {
 KnownObject learnObject(const std::string& label, const cv::Mat& picture, const TrainingOptions& options) {
   const FeatureFinder finder(options.kind, options.sensitivity);
   const cv::Mat gray = grayOf(picture);
-  KnownObject object{label, picture.size(), {}};
+  KnownObject object{label, picture.size(), thumbnailOf(picture), {}};
   addView(turned(gray, 0), 0, object.size_px, finder, object.features);
   int number = 0;
   for (const double yaw : options.yaws_deg) {

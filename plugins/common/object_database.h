@@ -12,7 +12,8 @@ namespace pomona {
 /// A flat object, or a flat side of one.
 struct KnownObject {
   std::string label;
-  cv::Size size_px;  ///< of its picture; its outline is the picture's border
+  cv::Size size_px;   ///< of its picture; its outline is the picture's border
+  cv::Mat thumbnail;  ///< of its picture: thumbnailOf()
   /// Places in the picture, in pixels; class_id is the number of the view it was seen in, 0 the picture
   /// itself.
   Features features;

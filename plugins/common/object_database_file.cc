@@ -1,6 +1,7 @@
 // The layout of a database file:
 //   "pomonaob"  version u32  kind u32  objects u32
-//   per object: length u32, label; width i32, height i32; features u32
+//   per object: length u32, label; width i32, height i32;
+//     width i32, height i32 of the thumbnail, its pixels, a byte each, row by row; features u32
 //     per feature: x f32, y f32, size f32, angle f32, view i32; its descriptor, f32 each
 #include <algorithm>
 #include <bit>
@@ -17,7 +18,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little);
 
 constexpr std::string_view kMagic = "pomonaob";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;  // 1 had no thumbnails
 constexpr int kLargestSide_px = 1 << 16;
 constexpr std::uint32_t kLongestLabel = 4096;
 
@@ -86,12 +87,22 @@ constexpr std::size_t featureBytes(int length) {
   return 4 * sizeof(float) + sizeof(std::int32_t) + static_cast<std::size_t>(length) * sizeof(float);
 }
 
+cv::Mat readThumbnail(Reader& file, cv::Size picture) {
+  const int width = file.number<std::int32_t>("the thumbnail's width", 1, picture.width);
+  const int height = file.number<std::int32_t>("the thumbnail's height", 1, picture.height);
+  const std::string_view pixels = file.text(static_cast<std::size_t>(width) * height, "a thumbnail");
+  cv::Mat thumbnail(height, width, CV_8U);
+  std::memcpy(thumbnail.data, pixels.data(), pixels.size());
+  return thumbnail;
+}
+
 KnownObject readObject(Reader& file, FeatureKind kind) {
   KnownObject object;
   const int length = descriptorLength(kind);
   object.label = file.text(file.number<std::uint32_t>("the label's length", 1, kLongestLabel), "a label");
   object.size_px.width = file.number<std::int32_t>("width", 1, kLargestSide_px);
   object.size_px.height = file.number<std::int32_t>("height", 1, kLargestSide_px);
+  object.thumbnail = readThumbnail(file, object.size_px);
   const std::uint32_t features = file.count("the number of features", featureBytes(length));
   object.features.descriptors.create(static_cast<int>(features), length, CV_32F);
   for (std::uint32_t i = 0; i < features; ++i) {
@@ -114,6 +125,9 @@ std::string encodeObjectDatabase(const ObjectDatabase& database) {
     bytes += object.label;
     append(bytes, static_cast<std::int32_t>(object.size_px.width));
     append(bytes, static_cast<std::int32_t>(object.size_px.height));
+    append(bytes, static_cast<std::int32_t>(object.thumbnail.cols));
+    append(bytes, static_cast<std::int32_t>(object.thumbnail.rows));
+    bytes.append(object.thumbnail.ptr<char>(), object.thumbnail.total());
     append(bytes, static_cast<std::uint32_t>(object.features.count()));
     for (int i = 0; i < object.features.count(); ++i) {
       const cv::KeyPoint& keypoint = object.features.keypoints[i];
@@ -137,7 +151,7 @@ ObjectDatabase readObjectDatabase(const std::string& path) {
   const auto kind = file.number<std::uint32_t>("the kind of features", 1, 4);
   database.kind = static_cast<FeatureKind>(kind);
   featureKindOf(nameOf(database.kind));
-  const std::uint32_t objects = file.count("the number of objects", 5 * sizeof(std::uint32_t));
+  const std::uint32_t objects = file.count("the number of objects", 7 * sizeof(std::uint32_t));
   if (objects == 0) file.fail("the database is empty: the number of objects is 0");
   for (std::uint32_t i = 0; i < objects; ++i) database.objects.push_back(readObject(file, database.kind));
   file.requireEnd();

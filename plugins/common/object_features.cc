@@ -36,6 +36,30 @@ cv::Ptr<cv::Feature2D> surfOf(FeatureKind kind, double sensitivity) {
 #endif
 }
 
+// Boxes around the parts of `mask`, with what a descriptor sees of its surroundings: enough for all but the
+// coarsest features. Those that overlap become one, and so do very many.
+std::vector<cv::Rect> areasOf(const cv::Mat& mask) {
+  constexpr int kSurroundings_px = 32, kMostAreas = 32;
+  cv::Mat labels, figures, middles;
+  const int count = cv::connectedComponentsWithStats(mask, labels, figures, middles) - 1;
+  std::vector<cv::Rect> areas;
+  for (int i = 1; i <= count; ++i) {
+    const int* const box = figures.ptr<int>(i);
+    const cv::Rect grown(box[cv::CC_STAT_LEFT] - kSurroundings_px, box[cv::CC_STAT_TOP] - kSurroundings_px,
+                         box[cv::CC_STAT_WIDTH] + 2 * kSurroundings_px,
+                         box[cv::CC_STAT_HEIGHT] + 2 * kSurroundings_px);
+    cv::Rect area = grown & cv::Rect(0, 0, mask.cols, mask.rows);
+    const auto joins = [&](const cv::Rect& other) { return count > kMostAreas || (other & area).area() > 0; };
+    for (auto it = std::find_if(areas.begin(), areas.end(), joins); it != areas.end();
+         it = std::find_if(areas.begin(), areas.end(), joins)) {
+      area |= *it;
+      areas.erase(it);
+    }
+    areas.push_back(area);
+  }
+  return areas;
+}
+
 void normalizeRows(cv::Mat& descriptors, FeatureKind kind) {
   for (int i = 0; i < descriptors.rows; ++i) {
     cv::Mat row = descriptors.row(i);
@@ -80,26 +104,23 @@ FeatureFinder::FeatureFinder(FeatureKind kind, double sensitivity)
 }
 
 Features FeatureFinder::find(const cv::Mat& image, const cv::Mat& mask) const {
-  // What a descriptor sees of its surroundings: enough for all but the coarsest features.
-  constexpr int kSurroundings_px = 32;
+  const cv::Rect whole(0, 0, image.cols, image.rows);
   Features found;
-  cv::Rect area(0, 0, image.cols, image.rows);
-  if (!mask.empty()) {
-    cv::Rect used = cv::boundingRect(mask);
-    if (used.empty()) return found;
-    used -= cv::Point(kSurroundings_px, kSurroundings_px);
-    used += cv::Size(2 * kSurroundings_px, 2 * kSurroundings_px);
-    area &= used;
+  for (const cv::Rect& area : mask.empty() ? std::vector<cv::Rect>{whole} : areasOf(mask)) {
+    const cv::Mat gray = grayOf(image(area)), allowed = mask.empty() ? cv::Mat() : mask(area).clone();
+    Features part;
+    if (surf_) {
+      surf_->detectAndCompute(gray, allowed, part.keypoints, part.descriptors);
+    } else {
+      const ViewFeatures features = siftFeatures(gray, allowed, sift_);
+      part.keypoints = features.keypoints;
+      features.descriptors.convertTo(part.descriptors, CV_32F);
+    }
+    if (part.keypoints.empty()) continue;
+    for (cv::KeyPoint& keypoint : part.keypoints) keypoint.pt += cv::Point2f(area.tl());
+    found.keypoints.insert(found.keypoints.end(), part.keypoints.begin(), part.keypoints.end());
+    found.descriptors.push_back(part.descriptors);
   }
-  const cv::Mat gray = grayOf(image(area)), allowed = mask.empty() ? cv::Mat() : mask(area).clone();
-  if (surf_) {
-    surf_->detectAndCompute(gray, allowed, found.keypoints, found.descriptors);
-  } else {
-    const ViewFeatures features = siftFeatures(gray, allowed, sift_);
-    found.keypoints = features.keypoints;
-    features.descriptors.convertTo(found.descriptors, CV_32F);
-  }
-  for (cv::KeyPoint& keypoint : found.keypoints) keypoint.pt += cv::Point2f(area.tl());
   normalizeRows(found.descriptors, kind_);
   return found;
 }

@@ -10,6 +10,7 @@ namespace pomona {
 namespace {
 
 constexpr double kSamePlace = 0.05;  // of the picture's larger side
+constexpr float kByteScale = 512;    // that of Lowe's SIFT: values beyond half of the whole length are rare
 
 }  // namespace
 
@@ -27,10 +28,13 @@ ObjectMatcher::ObjectMatcher(const ObjectDatabase& database) : database_(databas
   for (View& view : views_) view.descriptors = comparable(view.descriptors);
 }
 
-cv::Mat ObjectMatcher::comparable(const cv::Mat& descriptors) const {
-  constexpr double kScale = 512;  // that of Lowe's SIFT: values beyond half of the whole length are rare
+bool ObjectMatcher::fitsBytes() const {
   const bool has_signs = database_.kind == FeatureKind::kSurf64 || database_.kind == FeatureKind::kSurf128;
-  return has_signs ? descriptors : descriptorsToBytes(descriptors, kScale);
+  return !has_signs;
+}
+
+cv::Mat ObjectMatcher::comparable(const cv::Mat& descriptors) const {
+  return fitsBytes() ? descriptorsToBytes(descriptors, kByteScale) : descriptors;
 }
 
 bool ObjectMatcher::isSamePlace(const Place& a, const Place& b) const {
@@ -66,7 +70,8 @@ std::vector<ObjectMatch> ObjectMatcher::match(const cv::Mat& descriptors) const 
     float rival = best->rival_distance;
     for (const Candidate& other : all)
       if (!isSamePlace(best->place, other.place)) rival = std::min(rival, other.distance);
-    matches.push_back({i, best->place.object, best->place.feature, best->distance, best->distance / rival});
+    const float distance = best->distance / (fitsBytes() ? kByteScale : 1);
+    matches.push_back({i, best->place.object, best->place.feature, distance, best->distance / rival});
   }
   return matches;
 }

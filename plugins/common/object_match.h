@@ -10,10 +10,10 @@ namespace pomona {
 
 /// A feature of the image and its nearest neighbour in the database.
 struct ObjectMatch {
-  int query = 0;    ///< number of the image's feature
-  int object = 0;   ///< ObjectDatabase::objects
-  int feature = 0;  ///< KnownObject::features
-  float distance = 0;
+  int query = 0;       ///< number of the image's feature
+  int object = 0;      ///< ObjectDatabase::objects
+  int feature = 0;     ///< KnownObject::features
+  float distance = 0;  ///< of the descriptors, which are of unit length
   /// By the distance to the nearest feature of any other place (Lowe 2004): 0 unmistakable, 1 arbitrary.
   float ratio = 1;
 };
@@ -39,6 +39,7 @@ class ObjectMatcher {
     std::vector<Place> places;
     cv::Mat descriptors;
   };
+  bool fitsBytes() const;
   cv::Mat comparable(const cv::Mat& descriptors) const;
   bool isSamePlace(const Place& a, const Place& b) const;
 

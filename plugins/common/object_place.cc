@@ -1,11 +1,17 @@
 #include "plugins/common/object_place.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstdio>
+#include <functional>
+#include <limits>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
+#include <utility>
+
+#include "plugins/common/likeness.h"
+#include "plugins/common/placed_match.h"
 
 namespace pomona {
 namespace {
@@ -26,46 +32,28 @@ std::vector<cv::Point2f> outlineOf(const cv::Matx33d& image_from_picture, cv::Si
   return outline;
 }
 
-// Whether the picture's corners are all in front of the camera, in their order, around a sensible area.
-bool isPlausible(const cv::Matx33d& h, const std::vector<cv::Point2f>& outline, cv::Size size,
-                 const LocateOptions& options) {
-  const double right = size.width - 1, bottom = size.height - 1;
-  for (const cv::Vec3d& corner :
-       {cv::Vec3d(0, 0, 1), cv::Vec3d(right, 0, 1), cv::Vec3d(right, bottom, 1), cv::Vec3d(0, bottom, 1)})
-    if ((h * corner)[2] * h(2, 2) <= 0) return false;
+// Whether the picture's corners are all in front of the camera, none much farther than another, in their
+// order, around a sensible area.
+bool isPlausible(const cv::Matx33d& h, cv::Size size, const LocateOptions& options) {
+  constexpr double kFarthest = 3;  // of the nearest corner's depth
   constexpr bool kSigned = true;
+  const double right = size.width - 1, bottom = size.height - 1;
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const cv::Vec3d& corner :
+       {cv::Vec3d(0, 0, 1), cv::Vec3d(right, 0, 1), cv::Vec3d(right, bottom, 1), cv::Vec3d(0, bottom, 1)}) {
+    const double depth = (h * corner)[2] / h(2, 2);
+    least = std::min(least, depth);
+    most = std::max(most, depth);
+  }
+  if (!(least > 0 && most <= kFarthest * least)) return false;
+  const std::vector<cv::Point2f> outline = outlineOf(h, size);
   return cv::isContourConvex(outline) && cv::contourArea(outline, kSigned) >= options.min_area_px;
 }
-
-struct PlacedMatch {
-  ObjectMatch match;
-  cv::KeyPoint in_picture, in_image;
-};
 
 struct Agreement {
   cv::Matx33d image_from_picture = cv::Matx33d::eye();
   std::vector<PlacedMatch> matches;
 };
-
-// Matches whose features are turned by nearly the same angle: those of one object are, whatever its slant, to
-// within some 25 degrees (Lowe 2004 votes likewise).
-std::vector<PlacedMatch> turnedAlike(const std::vector<PlacedMatch>& matches) {
-  constexpr int kBins = 36, kReach = 2;
-  const auto bin_of = [](const PlacedMatch& m) {
-    const double turn = std::fmod(m.in_image.angle - m.in_picture.angle + 720, 360.0);
-    return std::min(kBins - 1, static_cast<int>(turn * kBins / 360));
-  };
-  std::array<int, kBins> counts{};
-  for (const PlacedMatch& m : matches)
-    for (int k = -kReach; k <= kReach; ++k) ++counts[(bin_of(m) + k + kBins) % kBins];
-  const int best = static_cast<int>(std::max_element(counts.begin(), counts.end()) - counts.begin());
-  std::vector<PlacedMatch> alike;
-  for (const PlacedMatch& m : matches) {
-    const int off = std::abs(bin_of(m) - best);
-    if (std::min(off, kBins - off) <= kReach) alike.push_back(m);
-  }
-  return alike;
-}
 
 Agreement agreementWith(const cv::Matx33d& image_from_picture, const std::vector<PlacedMatch>& matches,
                         double reach_px) {
@@ -107,22 +95,25 @@ std::optional<cv::Matx33d> affineMap(const std::vector<cv::Point2f>& from, const
 }
 
 // Small or distant objects show next to no perspective: a homography of their few matches bends at will.
-Agreement affineFirst(const std::vector<PlacedMatch>& matches, double reach_px) {
+Agreement affineFirst(const std::vector<PlacedMatch>& matches, cv::Size size, const LocateOptions& options) {
+  const double reach_px = options.reprojection_px;
   constexpr double kBend = 3;  // how much farther off than `reach_px` perspective may put a match
   std::vector<cv::Point2f> in_picture, in_image;
   placesOf(matches, in_picture, in_image);
   const std::optional<cv::Matx33d> affine = affineMap(in_picture, in_image, reach_px);
   if (!affine) return {};
+  if (!isPlausible(*affine, size, options)) return {};
   Agreement flat = agreementWith(*affine, matches, reach_px);
   Agreement bent = homography(agreementWith(*affine, matches, kBend * reach_px).matches, reach_px);
-  return bent.matches.size() > flat.matches.size() ? bent : flat;
+  const bool better = bent.matches.size() > flat.matches.size();
+  return better && isPlausible(bent.image_from_picture, size, options) ? bent : flat;
 }
 
 // The affine map into a plane whose perspective is known: `plane` gives 1/Z, up to a factor, so it says where
 // the plane's horizon is (Hartley & Zisserman 2004, 8.6), and x / plane(x, y), y / plane(x, y) are affine
 // coordinates on it. They are scaled to be pixels at the plane's origin.
-Agreement affineOnPlane(const std::vector<PlacedMatch>& matches, const DisparityPlane& plane,
-                        double reach_px) {
+Agreement affineOnPlane(const std::vector<PlacedMatch>& matches, const DisparityPlane& plane, cv::Size size,
+                        const LocateOptions& options) {
   const double d0 = plane.disparity_px, x0 = plane.origin_px.x, y0 = plane.origin_px.y;
   const cv::Matx33d flat_from_image(d0, 0, -x0 * d0, 0, d0, -y0 * d0, plane.slope_x, plane.slope_y,
                                     d0 - plane.slope_x * x0 - plane.slope_y * y0);
@@ -133,9 +124,11 @@ Agreement affineOnPlane(const std::vector<PlacedMatch>& matches, const Disparity
   placesOf(before_horizon, in_picture, in_plane);
   for (cv::Point2f& at : in_plane) at = mapped(flat_from_image, at);
   if (d0 <= 0 || in_plane.size() < 3) return {};
-  const std::optional<cv::Matx33d> affine = affineMap(in_picture, in_plane, reach_px);
+  const std::optional<cv::Matx33d> affine = affineMap(in_picture, in_plane, options.reprojection_px);
   if (!affine) return {};
-  return agreementWith(flat_from_image.inv() * *affine, before_horizon, reach_px);
+  const cv::Matx33d image_from_picture = flat_from_image.inv() * *affine;
+  if (!isPlausible(image_from_picture, size, options)) return {};
+  return agreementWith(image_from_picture, before_horizon, options.reprojection_px);
 }
 
 // The standard deviation of where the picture's middle is, along each axis: an affine map's, fitted to the
@@ -154,15 +147,10 @@ double middleSigma(const Agreement& agreement, cv::Size size) {
   return std::sqrt(squares / freedom * std::max(0.0, normal.inv(cv::DECOMP_SVD)(2, 2)));
 }
 
-// `matches` of one object that are distinct enough.
-std::vector<PlacedMatch> usable(const KnownObject& object, int object_number,
-                                const std::vector<cv::KeyPoint>& keypoints,
-                                std::span<const ObjectMatch> matches, const LocateOptions& options) {
-  std::vector<PlacedMatch> used;
-  for (const ObjectMatch& match : matches)
-    if (match.object == object_number && match.ratio <= options.ratio)
-      used.push_back({match, object.features.keypoints[match.feature], keypoints[match.query]});
-  return options.model == PlaceModel::kAffineFirst ? turnedAlike(used) : used;
+ObjectPlace notFound(std::string why) {
+  ObjectPlace place;
+  place.why_not = std::move(why);
+  return place;
 }
 
 ObjectPlace placeBy(const Agreement& agreement, cv::Size size, const LocateOptions& options) {
@@ -176,39 +164,95 @@ ObjectPlace placeBy(const Agreement& agreement, cv::Size size, const LocateOptio
   place.outline_px = outlineOf(place.image_from_picture, size);
   place.middle_px = mapped(place.image_from_picture, middleOf(size));
   place.middle_sigma_px = middleSigma(agreement, size);
-  if (!isPlausible(place.image_from_picture, place.outline_px, size, options)) {
+  if (!isPlausible(place.image_from_picture, size, options)) {
     place.why_not = "the matches agree on no plausible outline";
     place.outline_px.clear();
   }
   return place;
 }
 
+// Finds a map by matches that are distinct, then by all that it guides to.
+class Locator {
+ public:
+  using Fit = std::function<Agreement(const std::vector<PlacedMatch>&)>;
+
+  Locator(const KnownObject& object, int number, const SeenView& view, const LocateOptions& options)
+      : object_(object), number_(number), view_(view), options_(options) {}
+
+  // Of what the likeliest groups of matches say, the place that is most like the picture.
+  ObjectPlace locate(const Fit& fit) const {
+    constexpr int kGroups = 8;
+    const std::vector<PlacedMatch> distinct = placedMatches(object_, number_, view_, options_.ratio);
+    if (static_cast<int>(distinct.size()) < kSeeds)
+      return notFound(few(distinct.size(), kSeeds, "features match"));
+    Agreement best;
+    int places = 0;
+    double most_like = -1;
+    for (const std::vector<PlacedMatch>& group : likelyGroups(distinct, kGroups)) {
+      Agreement found = guided(fit(group), fit);
+      const int agreeing = distinctPlaces(found.matches);
+      places = std::max(places, agreeing);
+      if (agreeing < options_.min_agreeing) continue;
+      const double like = likeness(object_.thumbnail, object_.size_px, view_.gray, found.image_from_picture);
+      if (like <= most_like && !best.matches.empty()) continue;
+      most_like = like;
+      best = std::move(found);
+    }
+    if (places < options_.min_agreeing)
+      return notFound(few(places, options_.min_agreeing, "matches agree on a place"));
+    if (most_like < options_.min_likeness) return notFound(unlike(places, most_like));
+    return placeBy(best, object_.size_px, options_);
+  }
+
+ private:
+  static constexpr int kSeeds = 4;
+
+  std::string unlike(int places, double like) const {
+    char text[96];
+    std::snprintf(text, sizeof(text),
+                  "%d matches agree on a place, but what is there is not like it (%.2f of %.2f)", places,
+                  like, options_.min_likeness);
+    return text;
+  }
+
+  Agreement guided(Agreement agreement, const Fit& fit) const {
+    constexpr int kRounds = 3;
+    constexpr double kBend = 2;  // how much farther off than what agrees with a first map others may be
+    for (int round = 0; round < kRounds && distinctPlaces(agreement.matches) >= kSeeds; ++round) {
+      Agreement next = fit(guidedMatches(object_, number_, view_, agreement.image_from_picture,
+                                         agreement.matches, kBend * options_.reprojection_px));
+      if (next.matches.size() <= agreement.matches.size()) break;
+      agreement = std::move(next);
+    }
+    return agreement;
+  }
+
+  const KnownObject& object_;
+  int number_;
+  const SeenView& view_;
+  const LocateOptions& options_;
+};
+
 }  // namespace
 
-ObjectPlace locateObject(const KnownObject& object, int object_number,
-                         const std::vector<cv::KeyPoint>& keypoints, std::span<const ObjectMatch> matches,
+ObjectPlace locateObject(const KnownObject& object, int object_number, const SeenView& view,
                          const LocateOptions& options) {
-  ObjectPlace place;
-  if (object.features.count() == 0) {
-    place.why_not = "its picture has no features to recognise it by";
-    return place;
-  }
-  const std::vector<PlacedMatch> used = usable(object, object_number, keypoints, matches, options);
-  if (static_cast<int>(used.size()) < options.min_agreeing) {
-    place.why_not = few(used.size(), options.min_agreeing, "features match");
-    return place;
-  }
-  return placeBy(options.model == PlaceModel::kAffineFirst ? affineFirst(used, options.reprojection_px)
-                                                           : homography(used, options.reprojection_px),
-                 object.size_px, options);
+  if (object.features.count() == 0) return notFound("its picture has no features to recognise it by");
+  if (options.model == PlaceModel::kAffineFirst)
+    return Locator(object, object_number, view, options).locate([&](const std::vector<PlacedMatch>& some) {
+      return affineFirst(some, object.size_px, options);
+    });
+  const std::vector<PlacedMatch> distinct = placedMatches(object, object_number, view, options.ratio);
+  if (static_cast<int>(distinct.size()) < options.min_agreeing)
+    return notFound(few(distinct.size(), options.min_agreeing, "features match"));
+  return placeBy(homography(distinct, options.reprojection_px), object.size_px, options);
 }
 
-ObjectPlace locateOnPlane(const KnownObject& object, int object_number,
-                          const std::vector<cv::KeyPoint>& keypoints, std::span<const ObjectMatch> matches,
+ObjectPlace locateOnPlane(const KnownObject& object, int object_number, const SeenView& view,
                           const DisparityPlane& plane, const LocateOptions& options) {
-  return placeBy(affineOnPlane(usable(object, object_number, keypoints, matches, options), plane,
-                               options.reprojection_px),
-                 object.size_px, options);
+  return Locator(object, object_number, view, options).locate([&](const std::vector<PlacedMatch>& some) {
+    return affineOnPlane(some, plane, object.size_px, options);
+  });
 }
 
 cv::Point2d mapped(const cv::Matx33d& image_from_picture, const cv::Point2d& place) {

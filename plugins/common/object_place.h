@@ -23,6 +23,7 @@ struct LocateOptions {
   double reprojection_px = 3;  ///< of matches that agree
   int min_agreeing = 6;        ///< at least 4
   double min_area_px = 100;    ///< smallest plausible outline
+  double min_likeness = 0.65;  ///< likeness() at the object's place; kAffineFirst only
 };
 
 /// Where a flat object lies in the image.
@@ -38,18 +39,24 @@ struct ObjectPlace {
   std::vector<ObjectMatch> agreeing;
 };
 
-/// A map between picture and image from `matches` of `object` (others are left out), by RANSAC. It must be
-/// plausible: a convex outline that is not mirrored, at least min_area_px large, and around the agreeing
-/// features.
-ObjectPlace locateObject(const KnownObject& object, int object_number,
-                         const std::vector<cv::KeyPoint>& keypoints, std::span<const ObjectMatch> matches,
+/// What there is to be known of an image (CV_8U, 1 channel): its features, and the nearest known one of each.
+struct SeenView {
+  const cv::Mat& gray;
+  const Features& features;
+  std::span<const ObjectMatch> matches;
+};
+
+/// A map between picture and image from the matches of `object`, by RANSAC. It must be plausible: a convex
+/// outline that is not mirrored, at least min_area_px large, no corner three times as far as another. With
+/// kAffineFirst, four matches are enough for a first map, if guidedMatches() finds the others, and the view
+/// must look like the picture there.
+ObjectPlace locateObject(const KnownObject& object, int object_number, const SeenView& view,
                          const LocateOptions& options);
 
 /// Likewise, for an object whose surface is known: `plane` is its disparity in the rectified left view, plus
 /// the rig's doffs, so that Z is inversely proportional to it. Its perspective being known, the map is affine
 /// on it, and the object's far end agrees as well as the near one.
-ObjectPlace locateOnPlane(const KnownObject& object, int object_number,
-                          const std::vector<cv::KeyPoint>& keypoints, std::span<const ObjectMatch> matches,
+ObjectPlace locateOnPlane(const KnownObject& object, int object_number, const SeenView& view,
                           const DisparityPlane& plane, const LocateOptions& options);
 
 /// The image's point that shows `place` of the picture.

@@ -13,6 +13,7 @@
 #include "plugins/host/checks.h"
 #include "plugins/host/elf_file.h"
 #include "plugins/host/text.h"
+#include "plugins/host/trial.h"
 #include "pomona/engine.h"
 #include "pomona/plugin_host.h"
 #include "sgm/kernels.h"
@@ -42,7 +43,6 @@ auto guarded(const std::string& subject, Step&& step) {
 }
 
 Library open(const std::string& path) {
-  requireWholeLibrary(path);
   const std::string absolute = std::filesystem::absolute(path).string();  // else dlopen() might search for it
   Library library(dlopen(absolute.c_str(), RTLD_NOW | RTLD_LOCAL), dlclose);
   if (library) return library;
@@ -89,10 +89,10 @@ struct LoadedPlugin::State {
   std::vector<ParameterSet> sets;
 };
 
-LoadedPlugin::LoadedPlugin(const std::string& path) {
+std::unique_ptr<LoadedPlugin::State> LoadedPlugin::load(const std::string& path) {
   Library library = open(path);
   const PluginEntry& entry = entryOf(path, library.get());
-  state_ = guarded(path, [&] {
+  return guarded(path, [&] {
     Plugin plugin(entry.create(), entry.destroy);
     if (!plugin) throw std::runtime_error("the plugin could not be made");
     auto state = std::make_unique<State>(State{path, std::move(library), std::move(plugin), {}, {}, {}, {}});
@@ -106,6 +106,15 @@ LoadedPlugin::LoadedPlugin(const std::string& path) {
     PluginSettings(state->name, state->parameters, state->sets);  // throws if they contradict themselves
     return state;
   });
+}
+
+// An exception that leaves the constructor of a static object passes the dynamic loader, and that ends the
+// program; so does a crash. So it is tried first.
+LoadedPlugin::LoadedPlugin(const std::string& path) {
+  requireWholeLibrary(path);
+  if (const std::string death = deathBy([&] { load(path); }); !death.empty())
+    refuse(path, "ends the program as it is loaded, " + death);
+  state_ = load(path);
 }
 
 LoadedPlugin::~LoadedPlugin() = default;

@@ -36,6 +36,7 @@ class SignRanger {
     result_.figures.push_back({"features left", double(features_.count()), ""});
     result_.figures.push_back({"feature time", watch.lapMs(), "ms"});
     matches_ = ObjectMatcher(database).match(features_.descriptors);
+    view_.matches = matches_;
     result_.figures.push_back({"matching", watch.lapMs(), "ms"});
   }
 
@@ -52,7 +53,7 @@ class SignRanger {
     const KnownObject& known = database_.objects[number];
     SparseObject object;
     object.label = known.label;
-    const ObjectPlace place = locateObject(known, number, features_.keypoints, matches_, options_.locate);
+    const ObjectPlace place = locateObject(known, number, view_, options_.locate);
     object.why_not = place.why_not;
     if (place.found()) {
       const std::vector<SparsePoint> points = range(number, place, object);
@@ -69,8 +70,8 @@ class SignRanger {
     }
     const FlatObject flat{[&](const ObjectPlace& at) { return pointsOn(number, at); },
                           [&](const DisparityPlane& plane) {
-                            return locateOnPlane(database_.objects[number], number, features_.keypoints,
-                                                 matches_, plane, options_.locate);
+                            return locateOnPlane(database_.objects[number], number, view_, plane,
+                                                 options_.locate);
                           }};
     return rangeByPlane(left_, right_, rig_, flat, place, object);
   }
@@ -128,6 +129,7 @@ class SignRanger {
   FeatureFinder finder_;
   Features features_;
   std::vector<ObjectMatch> matches_;
+  SeenView view_{left_, features_, {}};
   int right_count_ = 0;
   SparseResult result_;
 };

@@ -19,7 +19,7 @@ class LogoRange final : public SparseStereoPlugin {
   }
 
   std::vector<PluginParameter> parameters() const override {
-    std::vector<PluginParameter> parameters = KnownObjects::parameters();
+    std::vector<PluginParameter> parameters = KnownObjects::parameters("wide");
     const std::vector<PluginParameter> own = {
         switchParameter("upper_half", "Look for signs in the upper half of the left view only", false),
         realParameter("sensitivity", "Divides the contrast that features of the views need", 2, 0.1, 20),
@@ -28,6 +28,9 @@ class LogoRange final : public SparseStereoPlugin {
         realParameter("reprojection_px", "How far off a match may be from where the sign has it", 3, 0.1, 50),
         choiceParameter("place_model", "An affine map, then a homography near it; or a homography at once",
                         {"affine-first", "homography"}),
+        realParameter("min_likeness",
+                      "Correlation of the picture with what the view shows at its place; affine-first only",
+                      0.65, -1, 1),
         integerParameter("min_agreeing", "Matches that must agree on the sign's place", 6, 4, 1000),
         realParameter("pair_ratio", "Of the distances between the views' features, at most", 0.85, 0, 1),
         realParameter("max_row_offset_px", "Between the views' features", 2, 0, 50),
@@ -56,7 +59,9 @@ class LogoRange final : public SparseStereoPlugin {
                                  {"pair_ratio", "0.7"},
                                  {"sign_ranging", "mean"},
                                  {"box_ranging", "centers"}});
-    return {{"faithful", "As published: one view per sign, points averaged, boxes ranged by their centres",
+    return {{"faithful",
+             "As published, " + KnownObjects::faithfulFeatures("surf-128") +
+                 ": one view per sign, points averaged, boxes ranged by their centres",
              values}};
   }
 
@@ -70,6 +75,7 @@ class LogoRange final : public SparseStereoPlugin {
     options.locate.ratio = settings.real("ratio");
     options.locate.reprojection_px = settings.real("reprojection_px");
     if (settings.text("place_model") == "homography") options.locate.model = PlaceModel::kHomography;
+    options.locate.min_likeness = settings.real("min_likeness");
     options.locate.min_agreeing = settings.integer("min_agreeing");
     options.pair_ratio = settings.real("pair_ratio");
     options.max_row_offset_px = settings.real("max_row_offset_px");

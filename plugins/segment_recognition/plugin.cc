@@ -16,7 +16,7 @@ class SegmentRecognition final : public SparseStereoPlugin {
   }
 
   std::vector<PluginParameter> parameters() const override {
-    std::vector<PluginParameter> parameters = KnownObjects::parameters();
+    std::vector<PluginParameter> parameters = KnownObjects::parameters("frontal");
     const std::vector<PluginParameter> own = {
         choiceParameter("filter", "Which features to compare: from near regions, on epipolar lines, or all",
                         {"disparity", "epipolar", "none"}),
@@ -35,6 +35,9 @@ class SegmentRecognition final : public SparseStereoPlugin {
                       50),
         choiceParameter("place_model", "An affine map, then a homography near it; or a homography at once",
                         {"affine-first", "homography"}),
+        realParameter("min_likeness",
+                      "Correlation of the picture with what the view shows at its place; affine-first only",
+                      0.65, -1, 1),
         integerParameter("min_agreeing", "Matches that must agree on the object's place", 6, 4, 1000),
         choiceParameter("object_ranging", "By the plane that aligns the views, or by the features' mean",
                         {"plane", "mean"})};
@@ -51,8 +54,10 @@ class SegmentRecognition final : public SparseStereoPlugin {
                                  {"place_model", "homography"},
                                  {"min_agreeing", "4"},
                                  {"object_ranging", "mean"}});
-    return {
-        {"faithful", "As published: SURF in both views, regions by block matching, points averaged", values}};
+    return {{"faithful",
+             "As published, " + KnownObjects::faithfulFeatures("surf-64") +
+                 ": features in both views, regions by block matching, points averaged",
+             values}};
   }
 
   SparseResult run(const RectifiedPair& pair, const StereoCalibration& rig,
@@ -75,6 +80,7 @@ class SegmentRecognition final : public SparseStereoPlugin {
     options.locate.ratio = settings.real("ratio");
     options.locate.reprojection_px = settings.real("reprojection_px");
     if (settings.text("place_model") == "homography") options.locate.model = PlaceModel::kHomography;
+    options.locate.min_likeness = settings.real("min_likeness");
     options.locate.min_agreeing = settings.integer("min_agreeing");
     options.ranging =
         settings.text("object_ranging") == "mean" ? ObjectRanging::kMean : ObjectRanging::kPlane;

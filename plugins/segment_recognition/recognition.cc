@@ -22,14 +22,15 @@ struct Recognised {
   const StereoCalibration& rig;
   const ComparedFeatures& compared;
   const RecognitionOptions& options;
+
+  SeenView view() const { return {left, compared.features, compared.matches}; }
 };
 
 std::vector<SparsePoint> range(const Recognised& seen, const KnownObject& known, int number,
                                const ObjectPlace& place, SparseObject& object) {
   const FlatObject flat{[&](const ObjectPlace& at) { return pointsOf(number, at, seen.compared); },
                         [&](const DisparityPlane& plane) {
-                          return locateOnPlane(known, number, seen.compared.features.keypoints,
-                                               seen.compared.matches, plane, seen.options.locate);
+                          return locateOnPlane(known, number, seen.view(), plane, seen.options.locate);
                         }};
   if (seen.options.ranging == ObjectRanging::kPlane)
     return rangeByPlane(seen.left, seen.right, seen.rig, flat, place, object);
@@ -50,8 +51,7 @@ SparseResult recogniseObjects(const RectifiedPair& pair, const StereoCalibration
   result.figures = compared.figures;
   for (int i = 0; i < static_cast<int>(database.objects.size()); ++i) {
     const KnownObject& known = database.objects[i];
-    const ObjectPlace place =
-        locateObject(known, i, compared.features.keypoints, compared.matches, options.locate);
+    const ObjectPlace place = locateObject(known, i, seen.view(), options.locate);
     SparseObject object;
     object.label = known.label;
     object.why_not = place.why_not;

@@ -1,4 +1,5 @@
 // Plugins that cannot be used, one for each value of POMONA_BROKEN.
+#include <csignal>
 #include <cstdlib>
 #include <stdexcept>
 
@@ -16,6 +17,10 @@ enum Broken {
   kSameName,
   kThrowsInName,
   kNothing,
+  kThrowsAtOpening,
+  kLeavesAtOpening,
+  kCrashesAtOpening,
+  kCrashesInCreate,
   kOtherVersion,
   kOtherBuild,
   kOtherLayout,
@@ -23,11 +28,20 @@ enum Broken {
   kThrowsInEntry,
 };
 
+// Runs as the file is opened.
+[[maybe_unused]] const bool opened = [] {
+  if (POMONA_BROKEN == kThrowsAtOpening) throw std::runtime_error("no static luck");
+  if (POMONA_BROKEN == kLeavesAtOpening) std::exit(3);
+  if (POMONA_BROKEN == kCrashesAtOpening) std::raise(SIGSEGV);
+  return true;
+}();
+
 class Plugin final : public pomona::SparseStereoPlugin {
  public:
   Plugin() {
     if (POMONA_BROKEN == kThrowsInCreate) throw std::runtime_error("no\nluck");
     if (POMONA_BROKEN == kThrowsNumberInCreate) throw 7;
+    if (POMONA_BROKEN == kCrashesInCreate) std::raise(SIGSEGV);
   }
   std::string name() const override {
     if (POMONA_BROKEN == kThrowsInName) throw std::runtime_error("nameless");
