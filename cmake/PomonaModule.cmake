@@ -10,9 +10,9 @@
 set(POMONA_FLAGS_scalar "")
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   set(POMONA_ISAS scalar avx2 avx512 CACHE STRING "Instruction sets to build kernels for")
-  set(POMONA_FLAGS_avx2 -mavx2 -mbmi -mbmi2 -mpopcnt -mlzcnt)
+  set(POMONA_FLAGS_avx2 -mavx2 -mbmi -mbmi2 -mpopcnt -mlzcnt -mtune=haswell)
   set(POMONA_FLAGS_avx512 ${POMONA_FLAGS_avx2} -mavx512f -mavx512bw -mavx512dq -mavx512vl -mavx512vbmi
-      -mavx512bitalg -mprefer-vector-width=512
+      -mavx512bitalg -mprefer-vector-width=512 -mtune=icelake-server
       -Wno-maybe-uninitialized)  # GCC 12 warns of its own _mm512_undefined_* (PR 105593)
 elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL "aarch64")
   set(POMONA_ISAS scalar neon CACHE STRING "Instruction sets to build kernels for")

@@ -89,7 +89,8 @@ struct AggregateRow {
   bool diagonals;        ///< false: only the straight and the horizontal path
   bool wide_sums;        ///< 16-bit partial sums instead of the 8-bit ones
   const std::uint8_t* cost;  ///< width * vectors * kBytes; or null:
-  CensusCostRow census;      ///< the costs are those of three planes, and computed on the way
+  CensusCostRow census;      ///< the costs are those of three planes, and computed on the way; the sum of
+                             ///< four path costs is below 256
   std::uint8_t* path[3];     ///< in: costs of the previous row, out: of this one; guard pixels are zero
   std::uint32_t* minima;     ///< 4 quads per pixel (left, straight, right, horizontal); guard pixels are zero
   const std::uint8_t*

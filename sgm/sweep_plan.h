@@ -38,7 +38,11 @@ class SweepPlan {
   std::size_t stepsBytes() const;   ///< of the colour steps into a row, in all four directions
   bool adaptsPenalties() const { return options_.adaptation != PenaltyAdaptation::kConstant; }
   /// Whether the kernels compute costs on the way, rather than read them.
-  bool computesCosts() const { return cost_.areCheap() && options_.paths == 8 && !hasWideSums(); }
+  /// On the way: if they are cheap, and nobody needs them to tell the sum of four path costs from its lowest
+  /// byte.
+  bool computesCosts() const {
+    return cost_.areCheap() && options_.paths == 8 && 4 * (cost_.maximum() + options_.p2) < 256;
+  }
 
   /// A whole row, without cost, border and sums. The three paths between rows come from row y + from_row, the
   /// horizontal one from column x + from_column. `steps`: room for stepsBytes() if penalties are adapted.
