@@ -35,6 +35,7 @@ KernelTables timedTables(Isa isa) {
   TIMED(pyramid, average), TIMED(pyramid, advanceRays);
   TIMED(pyramid, difference1), TIMED(pyramid, largestDifference3);
   TIMED(pyramid, countSourcesAndHoles), TIMED(pyramid, countNearPlane);
+  TIMED(pyramid, localResidual), TIMED(pyramid, correlate);
   TIMED(pyramid, packColors), TIMED(pyramid, gatherCandidates), TIMED(pyramid, candidateMedian);
   TIMED(camera, interpolate8), TIMED(camera, interpolate16);
   TIMED(camera, reduceBlocks), TIMED(camera, contrast);
