@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 
 #include "bench/sparse/object_scenes.h"
@@ -16,6 +17,9 @@
 #include "datasets/image_file.h"
 #include "plugins/common/disparity_plane.h"
 #include "plugins/common/likeness.h"
+#include "plugins/common/object_place.h"
+#include "plugins/common/object_range.h"
+#include "plugins/common/triangulation.h"
 #include "plugins/logo_range/box_range.h"
 #include "pomona/plugin_host.h"
 #include "tests/tiny_networks.h"
@@ -202,6 +206,59 @@ TEST(LogoRange, SignsThatShareAnEmblemAreNotTheSame) {
   trusting.locate.min_likeness = -1;
   EXPECT_TRUE(lookFor(database, s, trusting).found()) << "by the emblem alone";
   EXPECT_TRUE(lookFor(databaseOf(signNamed("KIWI"), wideYaws()), s).found());
+}
+
+// Noise whose right view is `shift_px` to the left, and an object that is most of it.
+struct Wall {
+  cv::Mat left = cv::Mat(160, 240, CV_8U), right;
+  ObjectPlace place;
+
+  explicit Wall(double shift_px) {
+    cv::RNG random(3);
+    random.fill(left, cv::RNG::UNIFORM, 0, 256);
+    cv::GaussianBlur(left, left, {}, 1.5);
+    left = (left - 128) * 4 + 128;
+    const cv::Mat shift = (cv::Mat_<double>(2, 3) << 1, 0, -shift_px, 0, 1, 0);
+    cv::warpAffine(left, right, shift, left.size(), cv::INTER_CUBIC, cv::BORDER_REFLECT);
+    place.outline_px = {{60, 30}, {200, 30}, {200, 130}, {60, 130}};
+    place.middle_px = {130, 80};
+  }
+  // Ranged by features with these places and disparities.
+  double disparity(const std::vector<cv::Point3f>& features) const {
+    StereoCalibration rig;
+    rig.focal_px = 240;
+    rig.baseline_m = 0.1;
+    const FlatObject flat{[&](const ObjectPlace&) {
+                            std::vector<SparsePoint> points;
+                            for (const cv::Point3f& f : features)
+                              points.push_back(triangulate(rig, {f.x, f.y}, {f.x - f.z, f.y}, 0.5f));
+                            return points;
+                          },
+                          [](const DisparityPlane&) {
+                            ObjectPlace none;
+                            none.why_not = "not asked";
+                            return none;
+                          }};
+    SparseObject object;
+    rangeByPlane(left, right, rig, flat, place, object);
+    return object.found() ? disparityOf(rig, object.point_m.z) : std::numeric_limits<double>::quiet_NaN();
+  }
+};
+
+TEST(RangeByPlane, DoesNotBelieveThreePointsAlone) {
+  const std::vector<cv::Point3f> wrong{{70, 40, 35}, {150, 60, 90}, {90, 120, 60}};
+  EXPECT_TRUE(std::isnan(Wall(10).disparity(wrong)));
+  std::vector<cv::Point3f> some = wrong;
+  some.insert(some.end(), {{100, 90, 10}, {180, 50, 10.3f}});
+  EXPECT_NEAR(Wall(10).disparity(some), 10, 0.05);
+}
+
+TEST(RangeByPlane, StaysWithMostPoints) {
+  std::vector<cv::Point3f> most;
+  for (int i = 0; i < 30; ++i)
+    most.emplace_back(static_cast<float>(65 + 37 * i % 130), static_cast<float>(35 + 53 * i % 90), 10.f);
+  EXPECT_NEAR(Wall(10.2).disparity(most), 10.2, 0.05);
+  EXPECT_NEAR(Wall(11.8).disparity(most), 10, 0.05) << "something else moves the views";
 }
 
 // Letters that occur twice match each other as well as themselves.
