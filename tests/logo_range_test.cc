@@ -208,6 +208,35 @@ TEST(LogoRange, SignsThatShareAnEmblemAreNotTheSame) {
   EXPECT_TRUE(lookFor(databaseOf(signNamed("KIWI"), wideYaws()), s).found());
 }
 
+// What of the database's only object is seen in the left view.
+ObjectPlace placeOf(const ObjectDatabase& database, const Street& s, const LocateOptions& options = {}) {
+  const cv::Mat gray = grayOf(s.pair.left.image);
+  const Features features = FeatureFinder(database.kind, 2).find(gray);
+  const std::vector<ObjectMatch> matches = ObjectMatcher(database).match(features.descriptors);
+  return locateObject(database.objects.at(0), 0, {gray, features, matches}, options);
+}
+
+TEST(LogoRange, FewerMatchesDoWhereTheViewEqualsThePicture) {
+  const Street s = street(3, 0, signPicture());
+  ObjectDatabase database = databaseOf(signPicture(), {});
+  const ObjectPlace place = placeOf(database, s);
+  ASSERT_GT(place.agreeing.size(), 20u) << place.why_not;
+  KnownObject& object = database.objects[0];
+  const Features all = object.features;
+  object.features = {{}, cv::Mat(0, all.descriptors.cols, CV_32F)};
+  for (int i = 0; i < 5; ++i) {
+    const int feature = place.agreeing[i * place.agreeing.size() / 5].feature;
+    object.features.keypoints.push_back(all.keypoints[feature]);
+    object.features.descriptors.push_back(all.descriptors.row(feature));
+  }
+  EXPECT_TRUE(placeOf(database, s).found()) << placeOf(database, s).why_not;
+  LocateOptions more;
+  more.min_agreeing = 8;
+  EXPECT_NE(placeOf(database, s, more).why_not.find("of at least 8 matches"), std::string::npos);
+  object.thumbnail = thumbnailOf(signNamed("KIWI"));  // still like enough for six
+  EXPECT_NE(placeOf(database, s).why_not.find("of at least 6 matches"), std::string::npos);
+}
+
 // Noise whose right view is `shift_px` to the left, and an object that is most of it.
 struct Wall {
   cv::Mat left = cv::Mat(160, 240, CV_8U), right;
