@@ -369,6 +369,23 @@ TEST(Detector, ReadsDarknetAndOnnx) {
   }
 }
 
+TEST(Detector, ReadsWeightsOfTheOldHeader) {
+  const TinyFiles files;
+  writeFile(files.folder.file("tiny.weights"), tinyDarknetWeights(1));
+  EXPECT_EQ(Detector(files.darknet).detect(redSquare().left).size(), 1u);
+  const std::string bytes = tinyDarknetWeights(1);
+  writeFile(files.folder.file("tiny.weights"), bytes.substr(0, bytes.size() - 4));
+  EXPECT_NE(errorOf([&] { Detector detector(files.darknet); }).find("tiny.weights: has"), std::string::npos);
+}
+
+TEST(Detector, LeavesBoxesThatAreNowhere) {
+  const TinyFiles files;
+  for (const float side : {1000.f, std::numeric_limits<float>::quiet_NaN()}) {
+    writeFile(files.folder.file("tiny.weights"), tinyDarknetWeights(2, side));
+    EXPECT_TRUE(Detector(files.darknet).detect(redSquare().left).empty()) << side;
+  }
+}
+
 TEST(Detector, RefusesUnreadableFiles) {
   const TinyFiles files;
   const auto error = [](DetectorOptions options) { return errorOf([&] { Detector detector(options); }); };
