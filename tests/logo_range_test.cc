@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 
 #include "bench/sparse/object_scenes.h"
@@ -16,6 +17,9 @@
 #include "datasets/image_file.h"
 #include "plugins/common/disparity_plane.h"
 #include "plugins/common/likeness.h"
+#include "plugins/common/object_place.h"
+#include "plugins/common/object_range.h"
+#include "plugins/common/triangulation.h"
 #include "plugins/logo_range/box_range.h"
 #include "pomona/plugin_host.h"
 #include "tests/tiny_networks.h"
@@ -204,6 +208,88 @@ TEST(LogoRange, SignsThatShareAnEmblemAreNotTheSame) {
   EXPECT_TRUE(lookFor(databaseOf(signNamed("KIWI"), wideYaws()), s).found());
 }
 
+// What of the database's only object is seen in the left view.
+ObjectPlace placeOf(const ObjectDatabase& database, const Street& s, const LocateOptions& options = {}) {
+  const cv::Mat gray = grayOf(s.pair.left.image);
+  const Features features = FeatureFinder(database.kind, 2).find(gray);
+  const std::vector<ObjectMatch> matches = ObjectMatcher(database).match(features.descriptors);
+  return locateObject(database.objects.at(0), 0, {gray, features, matches}, options);
+}
+
+TEST(LogoRange, FewerMatchesDoWhereTheViewEqualsThePicture) {
+  const Street s = street(3, 0, signPicture());
+  ObjectDatabase database = databaseOf(signPicture(), {});
+  const ObjectPlace place = placeOf(database, s);
+  ASSERT_GT(place.agreeing.size(), 20u) << place.why_not;
+  KnownObject& object = database.objects[0];
+  const Features all = object.features;
+  object.features = {{}, cv::Mat(0, all.descriptors.cols, CV_32F)};
+  for (int i = 0; i < 5; ++i) {
+    const int feature = place.agreeing[i * place.agreeing.size() / 5].feature;
+    object.features.keypoints.push_back(all.keypoints[feature]);
+    object.features.descriptors.push_back(all.descriptors.row(feature));
+  }
+  EXPECT_TRUE(placeOf(database, s).found()) << placeOf(database, s).why_not;
+  LocateOptions more;
+  more.min_agreeing = 8;
+  EXPECT_NE(placeOf(database, s, more).why_not.find("of at least 8 matches"), std::string::npos);
+  object.thumbnail = thumbnailOf(signNamed("KIWI"));  // still like enough for six
+  EXPECT_NE(placeOf(database, s).why_not.find("of at least 6 matches"), std::string::npos);
+}
+
+// Noise whose right view is `shift_px` to the left, and an object that is most of it.
+struct Wall {
+  cv::Mat left = cv::Mat(160, 240, CV_8U), right;
+  ObjectPlace place;
+
+  explicit Wall(double shift_px) {
+    cv::RNG random(3);
+    random.fill(left, cv::RNG::UNIFORM, 0, 256);
+    cv::GaussianBlur(left, left, {}, 1.5);
+    left = (left - 128) * 4 + 128;
+    const cv::Mat shift = (cv::Mat_<double>(2, 3) << 1, 0, -shift_px, 0, 1, 0);
+    cv::warpAffine(left, right, shift, left.size(), cv::INTER_CUBIC, cv::BORDER_REFLECT);
+    place.outline_px = {{60, 30}, {200, 30}, {200, 130}, {60, 130}};
+    place.middle_px = {130, 80};
+  }
+  // Ranged by features with these places and disparities.
+  double disparity(const std::vector<cv::Point3f>& features) const {
+    StereoCalibration rig;
+    rig.focal_px = 240;
+    rig.baseline_m = 0.1;
+    const FlatObject flat{[&](const ObjectPlace&) {
+                            std::vector<SparsePoint> points;
+                            for (const cv::Point3f& f : features)
+                              points.push_back(triangulate(rig, {f.x, f.y}, {f.x - f.z, f.y}, 0.5f));
+                            return points;
+                          },
+                          [](const DisparityPlane&) {
+                            ObjectPlace none;
+                            none.why_not = "not asked";
+                            return none;
+                          }};
+    SparseObject object;
+    rangeByPlane(left, right, rig, flat, place, object);
+    return object.found() ? disparityOf(rig, object.point_m.z) : std::numeric_limits<double>::quiet_NaN();
+  }
+};
+
+TEST(RangeByPlane, DoesNotBelieveThreePointsAlone) {
+  const std::vector<cv::Point3f> wrong{{70, 40, 35}, {150, 60, 90}, {90, 120, 60}};
+  EXPECT_TRUE(std::isnan(Wall(10).disparity(wrong)));
+  std::vector<cv::Point3f> some = wrong;
+  some.insert(some.end(), {{100, 90, 10}, {180, 50, 10.3f}});
+  EXPECT_NEAR(Wall(10).disparity(some), 10, 0.05);
+}
+
+TEST(RangeByPlane, StaysWithMostPoints) {
+  std::vector<cv::Point3f> most;
+  for (int i = 0; i < 30; ++i)
+    most.emplace_back(static_cast<float>(65 + 37 * i % 130), static_cast<float>(35 + 53 * i % 90), 10.f);
+  EXPECT_NEAR(Wall(10.2).disparity(most), 10.2, 0.05);
+  EXPECT_NEAR(Wall(11.8).disparity(most), 10, 0.05) << "something else moves the views";
+}
+
 // Letters that occur twice match each other as well as themselves.
 TEST(LogoRange, FindsSmallSignsWithRepeatedLetters) {
   const Street s = street(9, 45, signNamed("ZOO"));  // 57 px wide
@@ -280,6 +366,23 @@ TEST(Detector, ReadsDarknetAndOnnx) {
     EXPECT_EQ(detector.labelOf(seen[0].kind), "red thing");
     EXPECT_EQ(detector.labelOf(3), "class 3");
     EXPECT_TRUE(detector.detect(cv::Mat(256, 256, CV_8UC1, cv::Scalar(128))).empty());
+  }
+}
+
+TEST(Detector, ReadsWeightsOfTheOldHeader) {
+  const TinyFiles files;
+  writeFile(files.folder.file("tiny.weights"), tinyDarknetWeights(1));
+  EXPECT_EQ(Detector(files.darknet).detect(redSquare().left).size(), 1u);
+  const std::string bytes = tinyDarknetWeights(1);
+  writeFile(files.folder.file("tiny.weights"), bytes.substr(0, bytes.size() - 4));
+  EXPECT_NE(errorOf([&] { Detector detector(files.darknet); }).find("tiny.weights: has"), std::string::npos);
+}
+
+TEST(Detector, LeavesBoxesThatAreNowhere) {
+  const TinyFiles files;
+  for (const float side : {1000.f, std::numeric_limits<float>::quiet_NaN()}) {
+    writeFile(files.folder.file("tiny.weights"), tinyDarknetWeights(2, side));
+    EXPECT_TRUE(Detector(files.darknet).detect(redSquare().left).empty()) << side;
   }
 }
 

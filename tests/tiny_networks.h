@@ -30,12 +30,16 @@ inline std::string tinyDarknetShape() {
          "[yolo]\nmask=0\nanchors=4,4\nclasses=1\nnum=1\n";
 }
 
-/// Per filter (x, y, width, height, objectness, class) a bias, then the filters' weights.
-inline std::string tinyDarknetWeights() {
+/// Per filter (x, y, width, height, objectness, class) a bias, then the filters' weights. Of version 0.1 or
+/// 0.2; `side` is the logarithm of a box's sides.
+inline std::string tinyDarknetWeights(std::int32_t minor_version = 2, float side = 0) {
   std::string bytes;
-  for (const std::int32_t version : {0, 2, 0}) appendValue(bytes, version);
-  appendValue(bytes, std::int64_t{0});
-  for (const float bias : {0.f, 0.f, 0.f, 0.f, -8.f, 10.f}) appendValue(bytes, bias);
+  for (const std::int32_t version : {0, minor_version, 0}) appendValue(bytes, version);
+  if (minor_version < 2)
+    appendValue(bytes, std::int32_t{0});
+  else
+    appendValue(bytes, std::int64_t{0});
+  for (const float bias : {0.f, 0.f, side, side, -8.f, 10.f}) appendValue(bytes, bias);
   for (int filter = 0; filter < 6; ++filter)
     for (const float weight : rednessWeights(filter == 4 ? 20.f : 0.f)) appendValue(bytes, weight);
   return bytes;

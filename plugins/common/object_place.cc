@@ -153,11 +153,12 @@ ObjectPlace notFound(std::string why) {
   return place;
 }
 
-ObjectPlace placeBy(const Agreement& agreement, cv::Size size, const LocateOptions& options) {
+ObjectPlace placeBy(const Agreement& agreement, cv::Size size, int min_agreeing,
+                    const LocateOptions& options) {
   ObjectPlace place;
   for (const PlacedMatch& placed : agreement.matches) place.agreeing.push_back(placed.match);
-  if (static_cast<int>(place.agreeing.size()) < options.min_agreeing) {
-    place.why_not = few(place.agreeing.size(), options.min_agreeing, "matches agree on a place");
+  if (static_cast<int>(place.agreeing.size()) < min_agreeing) {
+    place.why_not = few(place.agreeing.size(), min_agreeing, "matches agree on a place");
     return place;
   }
   place.image_from_picture = agreement.image_from_picture;
@@ -187,25 +188,31 @@ class Locator {
       return notFound(few(distinct.size(), kSeeds, "features match"));
     Agreement best;
     int places = 0;
+    bool enough = false;
     double most_like = -1;
     for (const std::vector<PlacedMatch>& group : likelyGroups(distinct, kGroups)) {
       Agreement found = guided(fit(group), fit);
       const int agreeing = distinctPlaces(found.matches);
       places = std::max(places, agreeing);
-      if (agreeing < options_.min_agreeing) continue;
+      if (agreeing < fewestAgreeing()) continue;
       const double like = likeness(object_.thumbnail, object_.size_px, view_.gray, found.image_from_picture);
+      if (agreeing < options_.min_agreeing && like < kSurelyAlike) continue;
+      enough = true;
       if (like <= most_like && !best.matches.empty()) continue;
       most_like = like;
       best = std::move(found);
     }
-    if (places < options_.min_agreeing)
-      return notFound(few(places, options_.min_agreeing, "matches agree on a place"));
+    if (!enough) return notFound(few(places, options_.min_agreeing, "matches agree on a place"));
     if (most_like < options_.min_likeness) return notFound(unlike(places, most_like));
-    return placeBy(best, object_.size_px, options_);
+    return placeBy(best, object_.size_px, fewestAgreeing(), options_);
   }
 
  private:
   static constexpr int kSeeds = 4;
+  static constexpr double kSurelyAlike = 0.9;
+
+  // Of small pictures few features are seen. Two fewer do where the view is as good as equal to the picture.
+  int fewestAgreeing() const { return std::max(kSeeds, options_.min_agreeing - 2); }
 
   std::string unlike(int places, double like) const {
     char text[96];
@@ -245,7 +252,8 @@ ObjectPlace locateObject(const KnownObject& object, int object_number, const See
   const std::vector<PlacedMatch> distinct = placedMatches(object, object_number, view, options.ratio);
   if (static_cast<int>(distinct.size()) < options.min_agreeing)
     return notFound(few(distinct.size(), options.min_agreeing, "features match"));
-  return placeBy(homography(distinct, options.reprojection_px), object.size_px, options);
+  return placeBy(homography(distinct, options.reprojection_px), object.size_px, options.min_agreeing,
+                 options);
 }
 
 ObjectPlace locateOnPlane(const KnownObject& object, int object_number, const SeenView& view,

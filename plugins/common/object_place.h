@@ -21,7 +21,8 @@ struct LocateOptions {
   PlaceModel model = PlaceModel::kAffineFirst;
   double ratio = 0.8;          ///< matches up to this ratio count
   double reprojection_px = 3;  ///< of matches that agree
-  int min_agreeing = 6;        ///< at least 4
+  /// At least 4. With kAffineFirst two fewer do, though not less than 4, where likeness() is 0.9 or more.
+  int min_agreeing = 6;
   double min_area_px = 100;    ///< smallest plausible outline
   double min_likeness = 0.65;  ///< likeness() at the object's place; kAffineFirst only
 };

@@ -1,5 +1,6 @@
 #include "plugins/common/object_range.h"
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -31,18 +32,55 @@ void setOutline(const ObjectPlace& place, SparseObject& object) {
   object.box_px = cv::boundingRect(place.outline_px);
 }
 
-// Its origin is the object's middle.
+using Disparities = std::vector<PlaceDisparity>;
+
+constexpr double kTolerance_px = 1;
+
+int countOn(const DisparityPlane& plane, const Disparities& points) {
+  return static_cast<int>(std::count_if(points.begin(), points.end(), [&](const PlaceDisparity& point) {
+    return std::abs(plane.at(point.left_px) - point.disparity_px) <= kTolerance_px;
+  }));
+}
+
+// The surface of one disparity that most of the points are on, as if it faced the camera.
+DisparityPlane levelOf(const Disparities& points, const cv::Point2d& origin_px) {
+  DisparityPlane best{origin_px};
+  int most = 0;
+  for (const PlaceDisparity& point : points) {
+    const DisparityPlane level{origin_px, point.disparity_px};
+    if (const int on = countOn(level, points); on > most) most = on, best = level;
+  }
+  best.sigma_px = kTolerance_px / std::sqrt(std::max(1, most));
+  return best;
+}
+
+// Nothing if the views can't be aligned, or if that leaves the points: what stands before the surface, or
+// beside it, may pull harder than the surface itself.
+std::optional<DisparityPlane> alignedFrom(const DisparityPlane& start, const cv::Mat& left,
+                                          const cv::Mat& right, const Disparities& points,
+                                          const std::vector<cv::Point2f>& outline_px) {
+  const auto aligned = alignDisparityPlane(left, right, outline_px, start);
+  const bool stays = aligned && 2 * countOn(*aligned, points) >= countOn(start, points);
+  return stays ? aligned : std::nullopt;
+}
+
+// Its origin is the object's middle. Any three points are on some plane: without the views' word for it, it
+// takes twice as many.
 std::optional<DisparityPlane> surfaceOf(const cv::Mat& left, const cv::Mat& right,
                                         const std::vector<SparsePoint>& points, const ObjectPlace& place) {
-  constexpr double kTolerance_px = 1;
-  std::vector<PlaceDisparity> disparities;
+  constexpr int kLeastUnaligned = 2 * kLeastPoints;
+  if (static_cast<int>(points.size()) < kLeastPoints) return std::nullopt;
+  Disparities disparities;
   for (const SparsePoint& point : points) disparities.push_back({point.left_px, point.disparity_px});
-  const std::optional<DisparityPlane> plane =
-      fitDisparityPlane(disparities, place.middle_px, kTolerance_px, kLeastPoints);
-  if (!plane) return plane;
-  // Where the views can't be aligned, as on a glossy sign, the features' own plane it is.
-  const std::optional<DisparityPlane> aligned = alignDisparityPlane(left, right, place.outline_px, *plane);
-  return aligned ? aligned : plane;
+  const auto plane = fitDisparityPlane(disparities, place.middle_px, kTolerance_px, kLeastPoints);
+  if (plane) {
+    if (const auto aligned = alignedFrom(*plane, left, right, disparities, place.outline_px)) return aligned;
+    // Where the views can't be aligned, as on a glossy sign, the features' own plane it is.
+    if (countOn(*plane, disparities) >= kLeastUnaligned) return plane;
+  }
+  const DisparityPlane level = levelOf(disparities, place.middle_px);
+  if (const auto aligned = alignedFrom(level, left, right, disparities, place.outline_px)) return aligned;
+  return countOn(level, disparities) >= kLeastPoints ? std::optional(level) : std::nullopt;
 }
 
 void setMiddle(const StereoCalibration& rig, const DisparityPlane& plane, const ObjectPlace& place,

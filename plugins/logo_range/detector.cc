@@ -1,7 +1,11 @@
 #include "plugins/logo_range/detector.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 
@@ -26,15 +30,24 @@ std::size_t weightBytesOf(cv::dnn::Net& net) {
   return values * sizeof(float);
 }
 
+// A version of three numbers, and how many pictures were seen in training: since version 0.2 with 8 bytes,
+// before with 4.
+std::size_t headerBytesOf(const std::string& weights) {
+  std::int32_t version[3] = {};
+  std::memcpy(version, weights.data(), std::min(weights.size(), sizeof(version)));
+  const bool is_old = std::int64_t{10} * version[0] + version[1] < 2;
+  return sizeof(version) + (is_old ? sizeof(std::int32_t) : sizeof(std::int64_t));
+}
+
 cv::dnn::Net readDarknet(const std::string& network, std::string weights) {
-  constexpr std::size_t kHeaderBytes = 20;
   if (weights.empty()) weights = std::filesystem::path(network).replace_extension(".weights");
   const std::string shape = readFile(network), numbers = readFile(weights);
   const auto fail_short = [&](std::size_t needed) {
     throw std::runtime_error(weights + ": has " + std::to_string(numbers.size()) + " bytes; " + network +
                              " needs " + std::to_string(needed));
   };
-  if (numbers.size() < kHeaderBytes) fail_short(kHeaderBytes);
+  const std::size_t header = headerBytesOf(numbers);
+  if (numbers.size() < header) fail_short(header);
   cv::dnn::Net net;
   try {
     net = cv::dnn::readNetFromDarknet(shape.data(), shape.size(), numbers.data(), numbers.size());
@@ -42,7 +55,7 @@ cv::dnn::Net readDarknet(const std::string& network, std::string weights) {
     throw std::runtime_error(network + ": is no network that fits " + weights + ": " + firstLineOf(error));
   }
   if (net.empty()) throw std::runtime_error(network + ": holds no network");
-  const std::size_t needed = kHeaderBytes + weightBytesOf(net);
+  const std::size_t needed = header + weightBytesOf(net);
   if (numbers.size() < needed) fail_short(needed);
   return net;
 }
@@ -122,6 +135,10 @@ void Detector::addCandidates(const cv::Mat& output, cv::Size view, std::vector<D
     if (!(confidence >= static_cast<float>(options_.min_confidence))) continue;
     const cv::Size2f size(row[2] * to_x, row[3] * to_y);
     const cv::Point2f corner(row[0] * to_x - size.width / 2 - 0.5f, row[1] * to_y - size.height / 2 - 0.5f);
+    // Weights that fit nothing, or too large a size's exponent, make boxes that are nowhere.
+    const float sides[] = {corner.x, corner.y, size.width, size.height};
+    if (!std::all_of(std::begin(sides), std::end(sides), [](float side) { return std::isfinite(side); }))
+      continue;
     const cv::Rect2f box = cv::Rect2f(corner, size) & cv::Rect2f(0, 0, float(view.width), float(view.height));
     if (box.empty()) continue;
     all.push_back({static_cast<int>(score - row) - kBoxValues, confidence, box});
