@@ -27,8 +27,9 @@ constexpr int kMinRowsPerStrip = 32;
 constexpr int kMinSegment_px = 100;
 constexpr int kMinSources = 24;
 constexpr float kMinInlierRatio = 0.5f;
-constexpr float kMinOpenShare = 0.3f;    // of a segment that is matched as a whole: its holes
-constexpr double kScoreTolerance = 1.5;  // deviations that a plane's score may be below the level's
+constexpr float kMinOpenShare = 0.3f;      // of a segment that is matched as a whole: its holes
+constexpr float kMaxMeasuredShare = 0.3f;  // of the same: its measured pixels
+constexpr double kScoreTolerance = 1.5;    // deviations that a plane's score may be below the level's
 
 struct Division {
   float k;             // of the full image
@@ -71,8 +72,13 @@ class PlaneFiller {
 
  private:
   struct Census {
-    int sources = 0, holes = 0, cells_with_sources = 0;
+    int pixels = 0, sources = 0, holes = 0, cells_with_sources = 0;
 
+    // Hardly any of its pixels can be measured alone. Where more can be, holes have other reasons.
+    bool isBare() const {
+      return holes >= kMinSegment_px && has(kMinOpenShare, holes) &&
+             static_cast<float>(sources) < kMaxMeasuredShare * static_cast<float>(pixels);
+    }
     bool has(float share, int part) const {
       return static_cast<float>(part) >= share * static_cast<float>(sources + holes);
     }
@@ -81,6 +87,7 @@ class PlaneFiller {
   Census countPixels(const Segment& segment) const {
     Census count;
     for (const Cell c : segment.members) {
+      count.pixels += cells_.width(c) * cells_.height(c);
       count.sources += cells_.sources(c);
       count.holes += cells_.holes(c);
       count.cells_with_sources += cells_.sources(c) > 0;
@@ -93,8 +100,7 @@ class PlaneFiller {
   std::optional<PlaneFit> choosePlane(const Segment& segment, const Census& count, float min_coverage,
                                       std::uint32_t seed) const {
     std::optional<SegmentMatch::Level> level;
-    if (count.holes >= kMinSegment_px && count.has(kMinOpenShare, count.holes))
-      level = match_.levelOf(segment);
+    if (count.isBare()) level = match_.levelOf(segment);
     std::optional<PlaneFit> fit;
     if (level || count.has(min_coverage, count.sources)) fit = planeOfSources(segment, count, seed);
     if (!level || (fit && match_.scoreOf(segment, *fit) >= level->score - kScoreTolerance * level->deviation))

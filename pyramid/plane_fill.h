@@ -31,9 +31,9 @@ struct PlaneFillInput {
 /// nothing that the right view sees. The fine division comes first; the coarse one fills what it leaves, from
 /// measured pixels again.
 ///
-/// Segments of which at least 30 % and 100 px are holes are also matched as a whole (see segment_match.h). If
-/// one level stands out, a plane need not cover so much of the segment; but if it explains the segment worse
-/// than the level, by more than 1.5 deviations, the holes take the level.
+/// Segments of which at least 30 % and 100 px are holes, and less than 30 % measured, are also matched as a
+/// whole (see segment_match.h). If one level stands out, a plane need not cover so much of the segment; but
+/// if it explains the segment worse than the level, by more than 1.5 deviations, the holes take the level.
 ///
 /// Holes beyond the border of the right view (see view_border.h) take no plane that is
 /// 1 px or more off the source that they lie beyond; what both divisions leave of them takes that source's

@@ -15,10 +15,11 @@ using Pixel = SegmentCells::Pixel;
 constexpr int kMinRowsPerStrip = 16;
 constexpr int kResidualLimit = 62;  // 2.5 gray values
 constexpr int kEdge_px = 4;         // so far from other segments
-constexpr int kFewestPixels = 200;
+constexpr int kFewestPixels = 1000;
 constexpr int kMostPixels = 1 << 15;                  // more are sampled by rows: sums stay below 2^31
 constexpr int kNear_px = 2;                           // disparities that share one peak
 constexpr int kFewestOthers = 8;                      // disparities that tell how much scores spread
+constexpr int kFewestOthersPart = 2;                  // and one in so many of the range
 constexpr double kLeastHeight = 4, kLeastLead = 1.5;  // in deviations
 
 void residualsOf(ImageView<const std::uint8_t> in, int y, const PyramidKernels& kernels, std::int8_t* out) {
@@ -114,7 +115,9 @@ std::optional<SegmentMatch::Level> SegmentMatch::levelOf(const Segment& segment)
     sum += score(d);
     sum_of_squares += score(d) * score(d);
   }
-  if (others < kFewestOthers) return {};
+  // The segment's own disparity may be among the unknown ones, or may be outside the right view.
+  if (others < std::max(kFewestOthers, disparities_ / kFewestOthersPart)) return {};
+  if (squares[disparities_ - 1 - best] < 4 * fewest) return {};
   const double mean = sum / others;
   const double deviation = std::sqrt(std::max(0.0, sum_of_squares / others - mean * mean));
   const double height = score(best) - mean, lead = score(best) - second;

@@ -45,7 +45,9 @@ class SegmentMatch {
                int disparities, const PyramidKernels& kernels, Arena& arena, int threads);
 
   /// The disparity that stands out, if one does: by 4 deviations above the mean of the scores more than 2 px
-  /// away, and by 1.5 above the best of them.
+  /// away, and by 1.5 above the best of them. None does if the segment has fewer than 1000 px to compare, if
+  /// they leave the right view (or meet edges there) at more than half of the disparities, or if half of its
+  /// texture's energy does so at the best.
   std::optional<Level> levelOf(const Segment& segment) const;
 
   /// The score of a plane whose origin is that of the segment, with its disparities kept within those of its

@@ -173,6 +173,16 @@ TEST(SegmentMatch, NothingStandsOutWhereNothingMatches) {
   EXPECT_FALSE(Walls(12, 5, 1, 1).prepared(0, 8).levelOf(walls.wall(0)));  // too few to compare with
 }
 
+// What else is in the right view would win there by chance.
+TEST(SegmentMatch, NothingStandsOutOfWhatLeavesTheRightView) {
+  const Walls inside(40, 5, 1, 1), outside(70, 5, 1, 1);  // the wall is 120 px wide
+  const auto level = inside.prepared(0, 140).levelOf(inside.wall(0));
+  ASSERT_TRUE(level);
+  EXPECT_NEAR(level->disparity, 40, 0.3f);
+  EXPECT_FALSE(outside.prepared(0, 140).levelOf(outside.wall(0)));
+  EXPECT_FALSE(inside.prepared(0, 250).levelOf(inside.wall(0)));  // unknown from 105 up
+}
+
 TEST(SegmentMatch, StrongTextureOfAnotherSurfaceDoesNotCount) {
   Walls walls(12, 5, 1, 1);
   std::mt19937 random(9);
