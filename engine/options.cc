@@ -110,6 +110,7 @@ Options Options::preset(std::string_view name) {
     o.cost = {MatchingCost::kCensus5x5, 0};
     // With P2 of 39, sums leave seven bits of a word for the disparity (sgm/kernels.h, labelBits).
     o.aggregation = {8, 5, 39, 10, PenaltyAdaptation::kSoftIntensity};
+    o.validation.left_right_px = 1.0f;
     // A plain census leaves too few seeds to be strict about them.
     o.completion.seed_left_right_px = 1.0f;
     o.completion.seed_speckle_size_px = 50;
@@ -126,6 +127,7 @@ Options Options::preset(std::string_view name) {
     o.cost = {MatchingCost::kMutualInformation, 0};
     o.aggregation = {8, 10, 100, 10, PenaltyAdaptation::kInverseIntensity};
     o.winner.subpixel = SubpixelMethod::kParabola;
+    o.validation.left_right_px = 1.0f;
     o.completion.method = CompletionMethod::kPaper;
     o.align_rows = false;
     return o;

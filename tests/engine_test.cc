@@ -107,7 +107,7 @@ TEST(Engine, WholeFrameGoldenHashes) {
   };
   EXPECT_EQ(hash("fast", OutputMode::kSparse), 5399657888779382725u);
   EXPECT_EQ(hash("fast", OutputMode::kDense), 12444174204875565741u);
-  EXPECT_EQ(hash("balanced", OutputMode::kSparse), 6023207272991326325u);
+  EXPECT_EQ(hash("balanced", OutputMode::kSparse), 6976922994313105730u);
   EXPECT_EQ(hash("balanced", OutputMode::kDense), 16533857595060369009u);
   EXPECT_EQ(hash("quality", OutputMode::kDense), 16248278819585334180u);
 }

@@ -56,7 +56,7 @@ struct WinnerOptions {
 
 struct ValidationOptions {
   /// Largest |d_left - d_right| in pixels that passes; a negative value switches the check off.
-  float left_right_px = 1.0f;
+  float left_right_px = 1.5f;
   /// Connected regions (4-neighbours, disparity steps up to speckle_step_px) of fewer pixels are removed; 0:
   /// off.
   int speckle_size_px = 50;
