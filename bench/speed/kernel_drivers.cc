@@ -8,6 +8,7 @@
 #include "engine/sparse_stage.h"
 #include "pomona/engine.h"
 #include "pomona/pixel_state.h"
+#include "pyramid/segment_match.h"
 #include "pyramid/segmentation.h"
 
 namespace pomona {
@@ -151,6 +152,21 @@ void runGraySegments(KernelMaterial& m, const KernelTables& tables) {
   SortedEdges().build({gray.data, gray.width, gray.height, 1, gray.stride}, tables.pyramid, m.scratch, 1);
 }
 
+/// The whole view taken for one bare segment: real ones may be missing.
+void runBareSegment(KernelMaterial& m, const KernelTables& tables) {
+  constexpr int kFactor = 4;
+  const int columns = scaledLength(m.size.width, kFactor), rows = scaledLength(m.size.height, kFactor);
+  const std::vector<std::int32_t> labels(static_cast<std::size_t>(columns) * rows, 0);
+  const MatchInput& in = m.input.views();
+  const Arena::Scope scope(m.scratch);
+  SegmentCells cells;
+  cells.count(m.sparse_disparity.view(), m.sparse_state.view(), columns, rows, tables.pyramid, m.scratch, 1);
+  cells.group(labels.data(), 1);
+  SegmentMatch match;
+  match.prepare(in.left, in.right, 0, m.size.disparities, tables.pyramid, m.scratch, 1);
+  match.levelOf({cells.segment(0), cells, labels.data()});
+}
+
 }  // namespace
 
 KernelMaterial::KernelMaterial(const FrameSize& frame_size, const BenchmarkInputs& inputs)
@@ -213,7 +229,8 @@ std::vector<KernelDriver> kernelDrivers() {
                                  {"scaling-by-4", 1, runScaling},
                                  {"fusion", 1, runFusion},
                                  {"filling", 1, runFilling},
-                                 {"gray-segments", 1, runGraySegments}});
+                                 {"gray-segments", 1, runGraySegments},
+                                 {"bare-segment", 1, runBareSegment}});
   return drivers;
 }
 
