@@ -22,6 +22,7 @@ MethodResult WindowMethod::run(const cv::Mat& left, const cv::Mat& right, const 
   engine_options.min_disparity = options.min_disparity;
   engine_options.num_disparities = options.num_disparities;
   engine_options.threads = options.threads;
+  engine_options.validation.left_right_px = 1;  // a window's sums tell right from wrong less well than paths
   engine_options.validation = options.post_processing.over(engine_options.validation);
   engine_options.validate();
   const int threads = options.threads > 0 ? options.threads : availableThreads();

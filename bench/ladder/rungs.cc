@@ -18,10 +18,10 @@ constexpr Rung kRungs[] = {
      [](Options& o) { o.winner.subpixel = SubpixelMethod::kEquiangular; }},
     {"balanced", "left-right check of the seeds", "every winner of a region large enough is a seed",
      [](Options& o) { o.completion.seed_left_right_px = -1; }},
-    {"balanced", "strict seeds", "those of a sparse map: left-right 1 px, speckles 50 px",
+    {"balanced", "strict seeds", "left-right 1 px, speckles 50 px",
      [](Options& o) {
-       o.completion.seed_left_right_px = o.validation.left_right_px;
-       o.completion.seed_speckle_size_px = o.validation.speckle_size_px;
+       o.completion.seed_left_right_px = 1.0f;
+       o.completion.seed_speckle_size_px = 50;
      }},
     {"balanced", "speckle filter of the seeds", "none",
      [](Options& o) { o.completion.seed_speckle_size_px = 0; }},
