@@ -52,7 +52,7 @@ class PlaneFiller {
 
   // Reads and writes pixels of the segment only: segments may be filled in any order.
   void fill(const Segment& segment, float min_coverage, std::uint32_t seed) {
-    const Census count = countPixels(segment);
+    const PixelCounts count = countPixels(segment);
     if (count.holes == 0) return;
     const std::optional<PlaneFit> fit = choosePlane(segment, count, min_coverage, seed);
     if (!fit) return;
@@ -71,7 +71,7 @@ class PlaneFiller {
   }
 
  private:
-  struct Census {
+  struct PixelCounts {
     int pixels = 0, sources = 0, holes = 0, cells_with_sources = 0;
 
     // Hardly any of its pixels can be measured alone. Where more can be, holes have other reasons.
@@ -84,8 +84,8 @@ class PlaneFiller {
     }
   };
 
-  Census countPixels(const Segment& segment) const {
-    Census count;
+  PixelCounts countPixels(const Segment& segment) const {
+    PixelCounts count;
     for (const Cell c : segment.members) {
       count.pixels += cells_.width(c) * cells_.height(c);
       count.sources += cells_.sources(c);
@@ -97,7 +97,7 @@ class PlaneFiller {
 
   // The plane of the sources, if there are enough of them, or if the segment as a whole agrees with it; its
   // own level if that stands out and explains it clearly better.
-  std::optional<PlaneFit> choosePlane(const Segment& segment, const Census& count, float min_coverage,
+  std::optional<PlaneFit> choosePlane(const Segment& segment, const PixelCounts& count, float min_coverage,
                                       std::uint32_t seed) const {
     std::optional<SegmentMatch::Level> level;
     if (count.isBare()) level = match_.levelOf(segment);
@@ -108,7 +108,7 @@ class PlaneFiller {
     return PlaneFit{{0, 0, level->disparity}, count.sources, level->disparity, level->disparity};
   }
 
-  std::optional<PlaneFit> planeOfSources(const Segment& segment, const Census& count,
+  std::optional<PlaneFit> planeOfSources(const Segment& segment, const PixelCounts& count,
                                          std::uint32_t seed) const {
     if (count.sources < kMinSources) return {};
     const PlanePoints points = sample(segment, count.cells_with_sources);

@@ -39,8 +39,7 @@ class SegmentMatch {
   };
 
   /// The views are gray and of equal size, or empty: no level stands out then. Disparities are searched from
-  /// `min_disparity` up, at most kMostDisparities. What is made of them lies in the
-  /// current scope of `arena`.
+  /// `min_disparity` up, at most kMostDisparities. What is made of them lies in the current scope of `arena`.
   void prepare(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right, int min_disparity,
                int disparities, const PyramidKernels& kernels, Arena& arena, int threads);
 

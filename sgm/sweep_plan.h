@@ -37,9 +37,8 @@ class SweepPlan {
   std::size_t stateBytes() const;   ///< of what a sweep carries from row to row
   std::size_t stepsBytes() const;   ///< of the colour steps into a row, in all four directions
   bool adaptsPenalties() const { return options_.adaptation != PenaltyAdaptation::kConstant; }
-  /// Whether the kernels compute costs on the way, rather than read them.
-  /// On the way: if they are cheap, and nobody needs them to tell the sum of four path costs from its lowest
-  /// byte.
+  /// Whether the kernels compute costs on the way, rather than read them: if they are cheap, and nobody needs
+  /// them to tell the sum of four path costs from its lowest byte.
   bool computesCosts() const {
     return cost_.areCheap() && options_.paths == 8 && 4 * (cost_.maximum() + options_.p2) < 256;
   }

@@ -52,6 +52,14 @@ int posix_memalign(void** p, std::size_t alignment, std::size_t size) {
 namespace pomona {
 namespace {
 
+/// How often `frames` frames allocate: frame(i) is the i-th.
+template <typename Frame>
+long allocationsIn(int frames, Frame frame) {
+  const long before = allocations;
+  for (int i = 0; i < frames; ++i) frame(i);
+  return allocations - before;
+}
+
 TEST(Engine, FramesAfterTheFirstAllocateNothing) {
 #if defined(POMONA_CANNOT_COUNT)
   GTEST_SKIP() << "allocations cannot be counted in this build";
@@ -69,12 +77,11 @@ TEST(Engine, FramesAfterTheFirstAllocateNothing) {
         // A coarse map is made for a frame that needs one: the warm-up has to meet both kinds of frame.
         engine.compute(first.left.image, first.right.image);
         engine.compute(other.left.image, other.right.image);
-        const long before = allocations;
-        for (int frame = 0; frame < 10; ++frame) {
-          const RenderedPair& pair = frame % 2 ? first : other;
+        const auto alternate = [&](int i) {
+          const RenderedPair& pair = i % 2 ? first : other;
           engine.compute(pair.left.image, pair.right.image);
-        }
-        EXPECT_EQ(allocations - before, 0)
+        };
+        EXPECT_EQ(allocationsIn(10, alternate), 0)
             << preset << " mode " << static_cast<int>(mode) << " threads " << threads;
       }
   {
@@ -89,12 +96,11 @@ TEST(Engine, FramesAfterTheFirstAllocateNothing) {
     const cv::Mat mask(first.left.image.size(), CV_8UC1, cv::Scalar(255));
     engine.compute(first.left.image, first.right.image, mask);
     engine.compute(other.left.image, other.right.image, mask);
-    const long before = allocations;
-    for (int frame = 0; frame < 10; ++frame) {
-      const RenderedPair& pair = frame % 2 ? first : other;
+    const auto alternate = [&](int i) {
+      const RenderedPair& pair = i % 2 ? first : other;
       engine.compute(pair.left.image, pair.right.image, mask);
-    }
-    EXPECT_EQ(allocations - before, 0) << "with a rig";
+    };
+    EXPECT_EQ(allocationsIn(10, alternate), 0) << "with a rig";
   }
   {
     const RenderedPair pair = render(namedScene("boxes", 3, 480, 320, 48));
@@ -105,9 +111,8 @@ TEST(Engine, FramesAfterTheFirstAllocateNothing) {
     o.threads = 3;
     StereoEngine engine(o);
     engine.compute(pair.left.image, lower);
-    const long before = allocations;
-    for (int frame = 0; frame < 5; ++frame) EXPECT_TRUE(engine.compute(pair.left.image, lower).rows_aligned);
-    EXPECT_EQ(allocations - before, 0) << "with rows to be moved";
+    const auto aligned = [&](int) { EXPECT_TRUE(engine.compute(pair.left.image, lower).rows_aligned); };
+    EXPECT_EQ(allocationsIn(5, aligned), 0) << "with rows to be moved";
   }
   {
     const RenderedPair large = render(namedScene("boxes", 1, 320, 256, 40));
@@ -119,16 +124,13 @@ TEST(Engine, FramesAfterTheFirstAllocateNothing) {
     StereoEngine engine(o);
     engine.compute(large.left.image, large.right.image);
     engine.compute(small.left.image, small.right.image);
-    const long before = allocations;
-    for (int frame = 0; frame < 6; ++frame) {
-      const RenderedPair& pair = frame % 2 ? large : small;
+    const auto alternate = [&](int i) {
+      const RenderedPair& pair = i % 2 ? large : small;
       engine.compute(pair.left.image, pair.right.image);
-    }
-    EXPECT_EQ(allocations - before, 0) << "with an adaptive range";
+    };
+    EXPECT_EQ(allocationsIn(6, alternate), 0) << "with an adaptive range";
   }
-  const long before = allocations;
-  std::free(std::malloc(10));
-  EXPECT_GT(allocations - before, 0) << "the counter does not count";
+  EXPECT_GT(allocationsIn(1, [](int) { std::free(std::malloc(10)); }), 0) << "the counter does not count";
 }
 
 }  // namespace

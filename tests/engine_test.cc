@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <limits>
 #include <opencv2/imgproc.hpp>
@@ -15,6 +14,7 @@
 #include "core/cpu.h"
 #include "datasets/named_scenes.h"
 #include "datasets/render.h"
+#include "result_support.h"
 
 namespace pomona {
 namespace {
@@ -40,18 +40,6 @@ Options plainOptions(int num_disparities) {
   Options o = makeOptions("fast", num_disparities, OutputMode::kSparse);
   o.aggregation.adaptation = PenaltyAdaptation::kConstant;
   return o;
-}
-
-bool sameBytes(const cv::Mat& a, const cv::Mat& b) {
-  if (a.size() != b.size() || a.type() != b.type()) return false;
-  for (int y = 0; y < a.rows; ++y)
-    if (std::memcmp(a.ptr(y), b.ptr(y), a.elemSize() * a.cols) != 0) return false;
-  return true;
-}
-
-bool sameResult(const StereoResult& a, const StereoResult& b) {
-  return sameBytes(a.disparity, b.disparity) && sameBytes(a.state, b.state) &&
-         sameBytes(a.confidence, b.confidence) && sameBytes(a.sigma_px, b.sigma_px);
 }
 
 std::uint64_t hashOf(const StereoResult& r) {

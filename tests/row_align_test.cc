@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 #include <tuple>
@@ -13,6 +12,7 @@
 #include "datasets/named_scenes.h"
 #include "datasets/render.h"
 #include "pomona/engine.h"
+#include "result_support.h"
 
 namespace pomona {
 namespace {
@@ -127,14 +127,6 @@ double badPercent(const StereoResult& result) {
   return 100.0 * bad / static_cast<double>(truth.total());
 }
 
-bool sameBytes(const cv::Mat& a, const cv::Mat& b) {
-  return a.size() == b.size() && std::memcmp(a.data, b.data, a.total() * a.elemSize()) == 0;
-}
-bool sameMaps(const StereoResult& a, const StereoResult& b) {
-  return sameBytes(a.disparity, b.disparity) && sameBytes(a.state, b.state) &&
-         sameBytes(a.confidence, b.confidence) && sameBytes(a.sigma_px, b.sigma_px);
-}
-
 TEST(AlignedRows, PairsThatAreOffComeBack) {
   const auto& [left, right] = std::tie(boxes().left.image, boxes().right.image);
   for (const char* preset : {"fast", "balanced", "quality"}) {
@@ -160,7 +152,7 @@ TEST(AlignedRows, AlignedPairsStayToTheByte) {
     const StereoResult checked = computeDisparity(left, right, optionsOf(preset));
     ASSERT_GE(std::abs(checked.row_offset_px), 0);  // not NaN
     EXPECT_FALSE(checked.rows_aligned);
-    EXPECT_TRUE(sameMaps(checked, computeDisparity(left, right, optionsOf(preset, false))));
+    EXPECT_TRUE(sameResult(checked, computeDisparity(left, right, optionsOf(preset, false))));
   }
 }
 
@@ -191,7 +183,7 @@ TEST(AlignedRows, SameBytesForEveryThreadCountAndInstructionSet) {
     for (const int threads : {1, 3}) {
       o.isa = name(isa);
       o.threads = threads;
-      EXPECT_TRUE(sameMaps(computeDisparity(left, right, o), want)) << o.isa << ' ' << threads;
+      EXPECT_TRUE(sameResult(computeDisparity(left, right, o), want)) << o.isa << ' ' << threads;
     }
 }
 

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <opencv2/core.hpp>
 #include <stdexcept>
@@ -16,6 +15,7 @@
 #include "datasets/render.h"
 #include "engine/input.h"
 #include "pomona/engine.h"
+#include "result_support.h"
 
 namespace pomona {
 namespace {
@@ -67,17 +67,6 @@ Options options(const char* preset, OutputMode mode, bool adaptive = true) {
   o.mode = mode;
   o.adaptive_range = adaptive;
   return o;
-}
-
-bool sameBytes(const cv::Mat& a, const cv::Mat& b) {
-  if (a.size() != b.size() || a.type() != b.type()) return false;
-  for (int y = 0; y < a.rows; ++y)
-    if (std::memcmp(a.ptr(y), b.ptr(y), a.elemSize() * a.cols) != 0) return false;
-  return true;
-}
-bool sameResult(const StereoResult& a, const StereoResult& b) {
-  return sameBytes(a.disparity, b.disparity) && sameBytes(a.state, b.state) &&
-         sameBytes(a.confidence, b.confidence) && sameBytes(a.sigma_px, b.sigma_px);
 }
 
 TEST(SearchBands, CoverTheFrameOnceInsideTheRange) {

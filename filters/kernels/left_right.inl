@@ -54,9 +54,9 @@ inline void markMetColumns(const LeftRightRow& p, std::uint8_t* begins, std::uin
     const int count = p.width - q < kMatchChunk ? p.width - q : kMatchChunk;
     metColumnsOf(p, q, count, a, b);
     for (int i = 0; i < count; ++i) begins[a[i]] = ends[b[i]] = 1;
-    if (p.tolerance_px == 1.0f) continue;
+    if (p.tolerance_px == 1.0f) continue;  // there are three columns at most
     for (int i = 0; i < count; ++i)
-      for (int x = a[i]; x < b[i]; ++x) ends[x] = 1;
+      for (int x = a[i] + 2; x < b[i]; ++x) ends[x] = 1;
   }
   begins[p.width] = 0;
 }

@@ -31,8 +31,7 @@ std::vector<std::vector<PlacedMatch>> likelyGroups(const std::vector<PlacedMatch
 /// 4.8.3). Each feature of the image may belong to a feature of the object that should be seen within
 /// `reach_px` of it, turned and scaled as those of `seeds` (not empty) are, and that looks nearly as much
 /// like it as the nearest of all in the database: what an object has twice, as letters, has no distinct
-/// match, but one place. The result has the ratios of the
-/// view's own matches.
+/// match, but one place. The result has the ratios of the view's own matches.
 std::vector<PlacedMatch> guidedMatches(const KnownObject& object, int object_number, const SeenView& view,
                                        const cv::Matx33d& image_from_picture,
                                        std::span<const PlacedMatch> seeds, double reach_px);
