@@ -22,18 +22,18 @@ struct Fit {
 };
 
 // Printed by bench/confidence.
-constexpr Fit kLogOdds = {2.6307, 0.16598, 0.019044, -0.083038, -0.042722, -1.3795};
-constexpr Fit kLogSigma = {-0.9996, -0.10548, 0.0013102, 0.025608, 0.02155, 0.68541};
-constexpr TrustPair kNothingStandsOut = {0.51f, 12.92f};
+constexpr Fit kLogOdds = {2.7578, 0.16016, 0.013108, -0.088709, -0.049414, -1.3968};
+constexpr Fit kLogSigma = {-1.0678, -0.082054, -0.00034835, 0.028438, 0.024229, 0.66802};
+constexpr TrustPair kNothingStandsOut = {0.50f, 14.14f};
 
 constexpr TrustPair trustInFilled(PixelState state) {
   switch (state) {
     case PixelState::kFilledPlane:
-      return {0.87f, 0.44f};
+      return {0.88f, 0.41f};
     case PixelState::kFilledBackground:
-      return {0.50f, 7.81f};
+      return {0.49f, 6.67f};
     case PixelState::kFilledInterpolated:
-      return {0.46f, 8.00f};
+      return {0.44f, 6.30f};
     case PixelState::kFilledCoarse:
       return {0.39f, 3.69f};
     default:

@@ -32,4 +32,10 @@ void aggregate(const MatchingCostRows& cost, const ColorSteps& steps, const Aggr
 /// What kAutomatic stands for if kSpeed kept so many bytes of sums; other modes stay as they are.
 MemoryMode chooseMemory(MemoryMode memory, double sum_bytes);
 
+/// Whether the sums of a sweep take two bytes: those of two paths are kept as they are, those of four modulo
+/// 256, which beside the matching cost is enough if each exceeds it by 63 at most.
+constexpr bool needsWideSums(int maximum_cost, const AggregationOptions& options) {
+  return options.paths == 8 ? options.p2 > 63 : 2 * (maximum_cost + options.p2) > 255;
+}
+
 }  // namespace pomona

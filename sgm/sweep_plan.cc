@@ -51,7 +51,7 @@ std::size_t SweepPlan::pathBytes() const {
 }
 std::size_t SweepPlan::stateBytes() const {
   const std::size_t minima = 4 * sizeof(std::uint32_t) * static_cast<std::size_t>(width() + 2);
-  return 3 * pathBytes() + (minima + 63) / 64 * 64;
+  return pathsBetweenRows() * pathBytes() + (minima + 63) / 64 * 64;
 }
 std::size_t SweepPlan::stepsBytes() const {
   return 4 * staggered(static_cast<std::size_t>(width() + 2));
@@ -99,17 +99,19 @@ AggregateRow SweepPlan::row(int y, int from_row, int from_column, std::uint8_t* 
     right = from_row < 0 ? room(2) + 1 : room(0) + 2;
     horizontal = room(3) + (from_column < 0 ? 1 : 2);
   }
+  const bool diagonals = options_.paths == 8;
+  std::uint8_t* const straight_path = diagonals ? state + pathBytes() : state;
   return {.width = width(),
           .vectors = cost_.range().vectors,
           .begin = 0,
           .end = width(),
           .border = nullptr,
-          .diagonals = options_.paths == 8,
+          .diagonals = diagonals,
           .wide_sums = hasWideSums(),
           .cost = nullptr,
           .census = computesCosts() ? cost_.censusRow(y, nullptr) : CensusCostRow{},
-          .path = {state, state + pathBytes(), state + 2 * pathBytes()},
-          .minima = reinterpret_cast<std::uint32_t*>(state + 3 * pathBytes()),
+          .path = {state, straight_path, diagonals ? straight_path + pathBytes() : state},
+          .minima = reinterpret_cast<std::uint32_t*>(state + pathsBetweenRows() * pathBytes()),
           .step = {left, straight, right, horizontal},
           .p2 = p2_of_step_.data(),
           .p1 = static_cast<std::uint8_t>(options_.p1),

@@ -7,6 +7,7 @@
 
 #include "core/arena.h"
 #include "pomona/options.h"
+#include "sgm/aggregation.h"
 #include "sgm/color_steps.h"
 #include "sgm/cost.h"
 #include "sgm/kernels.h"
@@ -50,7 +51,8 @@ class SweepPlan {
   WinnerRow winners() const;
 
  private:
-  bool hasWideSums() const { return options_.p2 > 63; }
+  bool hasWideSums() const { return needsWideSums(cost_.maximum(), options_); }
+  int pathsBetweenRows() const { return options_.paths == 8 ? 3 : 1; }
   int labelBits() const;
   std::size_t pathBytes() const;
   void makeWinnerTables(Arena& arena);

@@ -212,9 +212,10 @@ TEST(Sgm, EqualsTextbookForEveryCostAndPixelDepth) {
 }
 
 TEST(Sgm, EqualsTextbookForEveryPenaltySetting) {
-  // 63 is the last P2 whose partial sums fit a byte; 62 + 30 + 163 reaches the 8-bit bound exactly.
+  // 63 is the last P2 with which the sums of four paths fit a byte, 65 that of two; 62 + 30 + 163 reaches the
+  // 8-bit bound exactly.
   for (int paths : {4, 8})
-    for (auto [p1, p2] : {std::pair{1, 1}, {5, 63}, {5, 64}, {30, 163}, {60, 63}})
+    for (auto [p1, p2] : {std::pair{1, 1}, {5, 63}, {5, 64}, {5, 65}, {5, 66}, {30, 163}, {60, 63}})
       for (PenaltyAdaptation a : {PenaltyAdaptation::kConstant, PenaltyAdaptation::kInverseIntensity,
                                   PenaltyAdaptation::kSoftIntensity})
         for (Content content : {Content::kNoise, Content::kStep})

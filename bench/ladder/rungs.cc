@@ -11,7 +11,7 @@ constexpr Rung kRungs[] = {
     {"balanced", "support", "each pixel's own cost", [](Options& o) { o.cost.support_color_step = 0; }},
     {"balanced", "penalties adapted to colour", "P2 everywhere",
      [](Options& o) { o.aggregation.adaptation = PenaltyAdaptation::kConstant; }},
-    {"balanced", "diagonal paths", "4 paths", [](Options& o) { o.aggregation.paths = 4; }},
+    {"balanced", "no diagonal paths", "8 paths", [](Options& o) { o.aggregation.paths = 8; }},
     {"balanced", "fitted sub-pixel curve", "parabola",
      [](Options& o) { o.winner.subpixel = SubpixelMethod::kParabola; }},
     {"balanced", "fitted sub-pixel curve", "equiangular",
@@ -39,6 +39,8 @@ constexpr Rung kRungs[] = {
        o.second_pass.cost = o.cost;
        o.second_pass.aggregation = o.aggregation;
      }},
+    {"quality", "no diagonal paths, in both passes", "8 paths",
+     [](Options& o) { o.aggregation.paths = o.second_pass.aggregation.paths = 8; }},
     {"quality", "segment planes, in both passes", "rays alone fill holes",
      [](Options& o) { o.completion.segment_planes = false; }},
     {"quality", "weighted median, in both passes", "none",

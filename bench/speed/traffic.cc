@@ -17,7 +17,7 @@ struct MatchBytes {
   bool supported;
 
   MatchBytes(const CostOptions& cost, const AggregationOptions& aggregation, int disparities, Isa isa)
-      : sum(aggregation.p2 > 63 ? 2 : 1),
+      : sum(needsWideSums(maximumCost(cost.cost), aggregation) ? 2 : 1),
         planes(planesOf(cost.cost)),
         paths(aggregation.paths == 8 ? 3 : 1),
         supported(cost.support_color_step > 0) {

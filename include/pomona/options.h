@@ -33,7 +33,7 @@ enum class PenaltyAdaptation {
 /// Semi-global aggregation. Penalties are in units of the matching cost.
 /// Path costs live in 8 bits, so the largest cost + p1 + p2 must not exceed 255.
 struct AggregationOptions {
-  int paths = 8;    ///< 4 (horizontal and vertical) or 8 (and diagonal)
+  int paths = 4;    ///< 4 (horizontal and vertical) or 8 (and diagonal)
   int p1 = 14;      ///< penalty for a disparity step of one; 1 <= p1 <= p2
   int p2 = 63;      ///< penalty for a larger step
   int p2_min = 20;  ///< lower bound of the adapted penalty (kSoftIntensity); p1 <= p2_min <= p2
@@ -56,7 +56,7 @@ struct WinnerOptions {
 
 struct ValidationOptions {
   /// Largest |d_left - d_right| in pixels that passes; a negative value switches the check off.
-  float left_right_px = 1.5f;
+  float left_right_px = 2.5f;
   /// Connected regions (4-neighbours, disparity steps up to speckle_step_px) of fewer pixels are removed; 0:
   /// off.
   int speckle_size_px = 50;
@@ -106,7 +106,7 @@ struct SecondPassOptions {
   int weight = 1;    ///< 1..16
   int reach_px = 4;  ///< 1..16; the largest cost + weight * reach_px + p1 + p2 must not exceed 255
   CostOptions cost = {MatchingCost::kBlended, 0};
-  AggregationOptions aggregation = {8, 3, 24, 6, PenaltyAdaptation::kSoftIntensity};
+  AggregationOptions aggregation = {4, 3, 24, 6, PenaltyAdaptation::kSoftIntensity};
 };
 
 enum class OutputMode {
@@ -118,8 +118,8 @@ enum class OutputMode {
 /// same.
 enum class MemoryMode {
   kAutomatic,  ///< kSpeed while the sums take at most 256 MiB, else kLow
-  kSpeed,      ///< all of them: one byte per pixel and disparity, two if p2 > 63
-  kLow,        ///< a few rows of them, computed a second time: memory grows with the root of the height
+  kSpeed,  ///< all of them: one byte per pixel and disparity, two if p2 > 63 (4 paths: if cost + p2 > 127)
+  kLow,    ///< a few rows of them, computed a second time: memory grows with the root of the height
 };
 
 struct Options {

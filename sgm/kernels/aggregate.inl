@@ -173,8 +173,8 @@ void firstPass(const AggregateRow& r) {
 }
 
 /// Completes the sums. In bytes: each path exceeds its matching cost C by at most P2 (it is C plus a
-/// penalty), so a sweep of k <= 4 paths satisfies 0 <= sum - k C <= 4 P2 <= 252 and is known exactly from its
-/// value modulo 256. With cheap costs the sum itself is below 256.
+/// penalty), so a sweep of four paths satisfies 0 <= sum - 4 C <= 4 P2 <= 252 and is known exactly from its
+/// value modulo 256. With cheap costs the sum itself is below 256, and so is that of two paths.
 template <int kVectors, bool kDiagonals, bool kWide, bool kCheapCost, int kLabelBits>
 void lastPass(const AggregateRow& r, const WinnerRow& w) {
   const int n = kVectors ? kVectors : r.vectors;
@@ -190,19 +190,17 @@ void lastPass(const AggregateRow& r, const WinnerRow& w) {
             const auto* first = static_cast<const std::uint16_t*>(r.sums) + at;
             sums[2 * j] = simd::add16(sums[2 * j], simd::load16(first));
             sums[2 * j + 1] = simd::add16(sums[2 * j + 1], simd::load16(first + simd::kBytes / 2));
-          } else if constexpr (kCheapCost) {
+          } else if constexpr (kCheapCost || !kDiagonals) {
             const U8 first = simd::load(static_cast<const std::uint8_t*>(r.sums) + at);
             const U8 last = byteSum<kDiagonals>(b[j], s[j], a[j], h[j]);
             sums[2 * j] = simd::addScaledLow<1>(first, last);
             sums[2 * j + 1] = simd::addScaledHigh<1>(first, last);
           } else {
-            constexpr int kPaths = kDiagonals ? 4 : 2;
-            const U8 twice = simd::add(c[j], c[j]), base = kDiagonals ? simd::add(twice, twice) : twice;
+            const U8 twice = simd::add(c[j], c[j]), base = simd::add(twice, twice);
             const U8 first = simd::sub(simd::load(static_cast<const std::uint8_t*>(r.sums) + at), base);
             const U8 last = simd::sub(byteSum<kDiagonals>(b[j], s[j], a[j], h[j]), base);
-            sums[2 * j] = simd::add16(simd::addScaledLow<2 * kPaths>(last, c[j]), simd::widenLow(first));
-            sums[2 * j + 1] =
-                simd::add16(simd::addScaledHigh<2 * kPaths>(last, c[j]), simd::widenHigh(first));
+            sums[2 * j] = simd::add16(simd::addScaledLow<8>(last, c[j]), simd::widenLow(first));
+            sums[2 * j + 1] = simd::add16(simd::addScaledHigh<8>(last, c[j]), simd::widenHigh(first));
           }
         }
         winner.put(x, sums);
