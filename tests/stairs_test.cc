@@ -33,15 +33,15 @@ TEST(Stairs, TheFittedCurveHasNone) {
   FractionStatistics all;
   for (const Texture& texture : textures()) {
     const FractionStatistics fitted = onPlanes(texture, SubpixelMethod::kFitted, PlaneMap::kSparse);
-    EXPECT_LE(fitted.unevenness(), 0.38) << texture.name;
-    EXPECT_LE(fitted.fullest(), 2.2) << texture.name;
+    EXPECT_LE(fitted.unevenness(), 0.44) << texture.name;
+    EXPECT_LE(fitted.fullest(), 2.4) << texture.name;
     EXPECT_LE(fitted.rmsPx(), 0.12) << texture.name;
-    EXPECT_LE(fitted.swingPx(), 0.12) << texture.name;
+    EXPECT_LE(fitted.swingPx(), 0.17) << texture.name;
     all.add(fitted);
   }
-  EXPECT_LE(all.unevenness(), 0.24);
+  EXPECT_LE(all.unevenness(), 0.29);
   EXPECT_LE(all.rmsPx(), 0.09);
-  EXPECT_LE(all.swingPx(), 0.04);
+  EXPECT_LE(all.swingPx(), 0.065);
 }
 
 TEST(Stairs, WholeDisparitiesAndTheParabolaHave) {
