@@ -107,8 +107,9 @@ NormalEquations normalEquations(const FittedSphere& sphere, const RegionSamples&
                                 const StereoCalibration& calibration) {
   constexpr double kSteepest = 0.45;  // cosine of the slant against the line of sight
   // A leaf lies 1 or 2 cm before its fruit: far away, that is less than a pixel, and no outlier to a wider
-  // reach.
-  constexpr double kReach_sigmas = 2, kMostReach_px = 1;
+  // reach. Nothing is seen through a fruit: so what is off to the near side is another thing sooner than what
+  // is off to the far side.
+  constexpr double kReach_sigmas = 2, kMostReach_px = 1, kReachBefore = 0.5;
   constexpr double kShapeError = 0.02;  // of the radius: no fruit is a sphere
   const double focal_baseline = calibration.focal_px * calibration.baseline_m;
   const double independent = region.pixels_each / kAlike_px;
@@ -124,7 +125,8 @@ NormalEquations normalEquations(const FittedSphere& sphere, const RegionSamples&
     const double residual = s.parallax_px - parallax_px;
     const double sigma_px = std::max(s.sigma_px, kSmallestSigma_px);
     const double shape_px = kShapeError * sphere.radius_m * parallax_px / t;
-    const double reach_px = std::min(kReach_sigmas * std::hypot(sigma_px, shape_px), kMostReach_px);
+    const double reach_px = std::min(kReach_sigmas * std::hypot(sigma_px, shape_px), kMostReach_px) *
+                            (residual > 0 ? kReachBefore : 1);
     if (residual <= -reach_px) equations.seen_through += s.central_trust;
     if (std::abs(residual) >= reach_px) continue;
     const double u = residual / reach_px, biweight = (1 - u * u) * (1 - u * u);
