@@ -377,7 +377,7 @@ TEST(Sgm, PriorAddsItsRampToTheCost) {
     MatchingCostRows cost;
     cost.startCensus({&left, {}, {}}, 24, makeRange(from, disparities, kernels), kernels, arena);
     cost.setRight({&right, {}, {}}, 2);
-    cost.preparePrior(map.view(), weight, reach, arena, 2);
+    cost.preparePrior(map.view(), 0, weight, reach, arena, 2);
     aggregateBoth(cost, steps, kSoft, kernels, 2, [&](const WinnerMaps& got, const char* memory) {
       expectEqual(got, want, "prior, isa " + std::string(name(isa)) + memory);
     });
