@@ -103,13 +103,10 @@ class HoleFiller {
     std::uint32_t* const color_weight = arena.take<std::uint32_t>(3 * 255 + 1);
     for (int i = 0; i <= 3 * 255; ++i) color_weight[i] = integerWeight(i / (channels * kColorScale));
     const int longest = std::max(disparity_.width, disparity_.height);  // in steps
-    std::uint32_t* const distance_weight =
-        arena.take<std::uint32_t>(kRays.size() * static_cast<std::size_t>(longest));
-    for (std::size_t k = 0; k < kRays.size(); ++k) {
-      std::uint32_t* table = distance_weight + k * static_cast<std::size_t>(longest);
-      const double step_px = std::sqrt(static_cast<double>(kRays[k].squaredStep()));
-      for (int i = 0; i < longest && i <= in_.search_radius_px; ++i)
-        table[i] = integerWeight(i * step_px / kDistanceScale_px);
+    std::uint32_t* const distance_weight = arena.take<std::uint32_t>(static_cast<std::size_t>(longest));
+    for (int i = 0; i < longest && i <= in_.search_radius_px; ++i)
+      distance_weight[i] = integerWeight(i / kDistanceScale_px);
+    for (std::size_t k = 0; k < kRays.size(); ++k)
       sources_[k] = {.disparity = disparity_.data,
                      .disparity_stride = static_cast<std::int32_t>(disparity_.stride),
                      .right_disparity = in_.right_disparity.data,
@@ -119,10 +116,9 @@ class HoleFiller {
                      .width = disparity_.width,
                      .visibility_tolerance_px = kVisibilityTolerance_px,
                      .color_weight = color_weight,
-                     .distance_weight = table,
+                     .distance_weight = distance_weight,
                      .dx = kRays[k].dx,
                      .dy = kRays[k].dy};
-    }
   }
 
   // Where every candidate is impossible: the background of the row, or of all directions. NaN without any.
@@ -223,7 +219,7 @@ void fillHoles(const HoleFillInput& in, ImageView<float> disparity, ImageView<st
   // Before the rays, whose room for all there could be is hardly touched.
   const auto colors = scratch.image<std::uint32_t>(in.guide.width, in.guide.height);
   HoleRays rays;
-  rays.findHoles(disparity, state, scratch, threads);
+  rays.findHoles(disparity, state, scratch, kernels, threads);
   if (rays.count() == 0) return;
   rays.follow(in.search_radius_px, kernels, threads);
   HoleFiller filler(in, disparity, state, rays, colors, scratch, kernels, threads);

@@ -10,8 +10,15 @@ namespace pomona {
 
 enum class Isa;
 
+/// Directions in which a hole looks for what may fill it.
+constexpr int kHoleRays = 4;
 /// Most holes that one call of a kernel takes.
 constexpr int kHoleBatch = 64;
+
+/// Values of the state, see findHoles.
+struct HoleStates {
+  std::uint8_t measured, plane, missing, masked;
+};
 
 /// What the candidates of one ray are read from. Strides count elements; stride * height must be below 2^31.
 struct CandidateSources {
@@ -51,8 +58,13 @@ struct PyramidKernels {
   /// inout = (inout + other) / 2
   void (*average)(const float* other, int n, float* inout);
 
-  /// One step along a ray: out = open & saturating(previous + 1); `open` is 0 at a source, else 0xffff.
-  void (*advanceRays)(const std::uint16_t* previous, const std::uint16_t* open, int n, std::uint16_t* out);
+  /// open[x] = 0 for sources: of state `measured` with a disparity that is not NaN, or of state `plane`; else
+  /// 0xffff. is_hole[x] = 1 if pixel x is `measured` but NaN, or at least `missing` but not `masked`; else 0.
+  /// Returns how many holes there are.
+  int (*findHoles)(const float* disparity, const std::uint8_t* state, HoleStates states, int n,
+                   std::uint16_t* open, std::uint8_t* is_hole);
+  /// One step along a ray: steps = open & saturating(steps + 1); `open` as above.
+  void (*advanceRays)(const std::uint16_t* open, int n, std::uint16_t* steps);
 
   /// out[i] = |a[i] - b[i]|
   void (*difference1)(const std::uint8_t* a, const std::uint8_t* b, int n, std::uint8_t* out);
@@ -84,8 +96,9 @@ struct PyramidKernels {
                            const std::uint32_t* here, const std::uint16_t* steps, int n, float* disparity,
                            std::uint32_t* weight);
 
-  /// For each of n <= kHoleBatch holes the smallest of its 16 disparities (plane k at k n) that has, together
-  /// with the smaller ones, at least half of all weight, whose sum must fit 32 bits; +infinity without any.
+  /// For each of n <= kHoleBatch holes the smallest of its kHoleRays disparities (plane k at k n) that has,
+  /// together with the smaller ones, at least half of all weight, whose sum must fit 32 bits; +infinity
+  /// without any.
   void (*candidateMedian)(const float* disparity, const std::uint32_t* weight, int n, float* out);
 };
 

@@ -32,7 +32,7 @@ KernelTables timedTables(Isa isa) {
   TIMED(pyramid, cubicRow), TIMED(pyramid, cubicColumn);
   TIMED(pyramid, reduceRow), TIMED(pyramid, reduceColumn);
   TIMED(pyramid, expandRow), TIMED(pyramid, addExpandedColumn);
-  TIMED(pyramid, average), TIMED(pyramid, advanceRays);
+  TIMED(pyramid, average), TIMED(pyramid, findHoles), TIMED(pyramid, advanceRays);
   TIMED(pyramid, difference1), TIMED(pyramid, largestDifference3);
   TIMED(pyramid, countSourcesAndHoles), TIMED(pyramid, countNearPlane);
   TIMED(pyramid, localResidual), TIMED(pyramid, correlate);

@@ -18,11 +18,12 @@ inline std::int32_t byteDifference(std::uint32_t a, std::uint32_t b, int shift) 
   return d < 0 ? -d : d;
 }
 
-// One element at a time on purpose: left to itself, GCC takes vectors of indices apart, which is slower.
-template <typename T>
-__attribute__((optimize("no-tree-vectorize"))) void lookUp(const T* table, const std::int32_t* index, int n,
-                                                           T* __restrict out) {
-  for (int i = 0; i < n; ++i) out[i] = table[index[i]];
+void gatherRow(const std::uint32_t* from, const std::int32_t* index, int count,
+               std::uint32_t* __restrict out) {
+  int i = 0;
+  for (; i + kFloatLanes <= count; i += kFloatLanes)
+    store(reinterpret_cast<std::int32_t*>(out) + i, gather(from, load(index + i)));
+  for (; i < count; ++i) out[i] = from[index[i]];
 }
 
 // Masks of all ones or none (-bool) stand where a conditional would keep GCC from vectorising.
@@ -40,9 +41,9 @@ void gatherCandidates(const CandidateSources& sources, const std::int32_t* x, co
   }
   float e[kHoleBatch], seen[kHoleBatch];
   std::uint32_t color[kHoleBatch], color_weight[kHoleBatch], distance_weight[kHoleBatch];
-  lookUp(s.disparity, index, n, e);
-  lookUp(s.color, color_index, n, color);
-  lookUp(s.distance_weight, count, n, distance_weight);
+  gatherRow(s.disparity, index, n, e);
+  gatherRow(s.color, color_index, n, color);
+  gatherRow(s.distance_weight, count, n, distance_weight);
 
   std::int32_t inside[kHoleBatch];
   for (int i = 0; i < n; ++i) {
@@ -57,8 +58,8 @@ void gatherCandidates(const CandidateSources& sources, const std::int32_t* x, co
     color_index[i] = byteDifference(here[i], color[i], 0) + byteDifference(here[i], color[i], 8) +
                      byteDifference(here[i], color[i], 16);
   }
-  lookUp(s.right_disparity, index, n, seen);
-  lookUp(s.color_weight, color_index, n, color_weight);
+  gatherRow(s.right_disparity, index, n, seen);
+  gatherRow(s.color_weight, color_index, n, color_weight);
 
   for (int i = 0; i < n; ++i) {
     const bool contradicted = (inside[i] != 0) & (seen[i] < e[i] - s.visibility_tolerance_px);
@@ -71,16 +72,16 @@ void gatherCandidates(const CandidateSources& sources, const std::int32_t* x, co
 
 void candidateMedian(const float* disparity, const std::uint32_t* weight, int n, float* __restrict out) {
   std::uint32_t needed[kHoleBatch] = {}, sum[kHoleBatch];
-  for (int k = 0; k < 16; ++k)
+  for (int k = 0; k < kHoleRays; ++k)
     for (int i = 0; i < n; ++i) needed[i] += weight[k * n + i];
   for (int i = 0; i < n; ++i) {
     needed[i] = needed[i] / 2 + needed[i] % 2;
     out[i] = __builtin_inff();
   }
-  for (int k = 0; k < 16; ++k) {
+  for (int k = 0; k < kHoleRays; ++k) {
     const float* d = disparity + k * n;
     for (int i = 0; i < n; ++i) sum[i] = 0;
-    for (int j = 0; j < 16; ++j)
+    for (int j = 0; j < kHoleRays; ++j)
       for (int i = 0; i < n; ++i) {
         const std::uint32_t w = weight[j * n + i];
         sum[i] += disparity[j * n + i] <= d[i] ? w : 0;

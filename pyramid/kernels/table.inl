@@ -1,4 +1,5 @@
 // Everything an instruction set's target file compiles: the bodies, and the table of them.
+#include "core/simd/float.h"
 #include "pyramid/kernels.h"
 // clang-format off: the bodies have no includes of their own
 #include "pyramid/kernels/candidates.inl"
@@ -21,6 +22,7 @@ constexpr PyramidKernels kTable = {
     .expandRow = expandRow,
     .addExpandedColumn = addExpandedColumn,
     .average = average,
+    .findHoles = findHoles,
     .advanceRays = advanceRays,
     .difference1 = difference1,
     .largestDifference3 = largestDifference3,
