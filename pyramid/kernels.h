@@ -35,6 +35,28 @@ struct CandidateSources {
   std::int32_t dx, dy;                   ///< the ray's step
 };
 
+/// The disparity a (x - x0) + b (y - y0) + c, kept within low and high; none if c is NaN.
+struct SegmentPlane {
+  float a = 0, b = 0, c = 0, low = 0, high = 0;
+  std::int32_t x0 = 0, y0 = 0;
+  std::int32_t unused = 0;  // planes are read as 8 words each
+};
+
+/// Most holes that one call of planeDisparities takes.
+constexpr int kPlaneBatch = 256;
+
+/// What the holes of a row are filled with, see pyramid/plane_fill.h.
+struct PlaneFillRow {
+  const SegmentPlane* planes;
+  const float* right_disparity;
+  std::int32_t width, y;
+  float min_disparity, max_disparity, visibility_tolerance_px, border_tolerance_px;
+  /// Holes left of left_x and right of right_x lie beyond the right view: at these columns, their planes must
+  /// be within the tolerance of these disparities.
+  std::int32_t left_x, right_x;
+  float beyond_left_px, beyond_right_px;
+};
+
 struct PyramidKernels {
   /// sum[i] += weight * in[i]
   void (*accumulate8)(const std::uint8_t* in, std::uint32_t weight, int n, std::uint32_t* sum);
@@ -77,6 +99,11 @@ struct PyramidKernels {
   /// How many of n points have |((a x + b y) + c) - d| < tolerance.
   int (*countNearPlane)(const float* x, const float* y, const float* d, int n, float a, float b, float c,
                         float tolerance);
+
+  /// out[i] = the disparity of planes[segment[i]] at column x[i], NaN if it may not be there; n <=
+  /// kPlaneBatch. The arrays have room for kPlaneBatch values, all of them valid places.
+  void (*planeDisparities)(const PlaneFillRow& row, const std::int32_t* x, const std::int32_t* segment, int n,
+                           float* out);
 
   /// out[x] = 25 rows[2][x] less the sum of the 5 x 5 pixels around it, columns beyond the ends being the
   /// last ones; 0 if that is beyond +- limit, which is at most 127.

@@ -34,7 +34,7 @@ KernelTables timedTables(Isa isa) {
   TIMED(pyramid, expandRow), TIMED(pyramid, addExpandedColumn);
   TIMED(pyramid, average), TIMED(pyramid, findHoles), TIMED(pyramid, advanceRays);
   TIMED(pyramid, difference1), TIMED(pyramid, largestDifference3);
-  TIMED(pyramid, countSourcesAndHoles), TIMED(pyramid, countNearPlane);
+  TIMED(pyramid, countSourcesAndHoles), TIMED(pyramid, countNearPlane), TIMED(pyramid, planeDisparities);
   TIMED(pyramid, localResidual), TIMED(pyramid, correlate);
   TIMED(pyramid, packColors), TIMED(pyramid, gatherCandidates), TIMED(pyramid, candidateMedian);
   TIMED(camera, interpolate8), TIMED(camera, interpolate16);

@@ -4,6 +4,7 @@
 // clang-format off: the bodies have no includes of their own
 #include "pyramid/kernels/candidates.inl"
 #include "pyramid/kernels/laplacian.inl"
+#include "pyramid/kernels/planes.inl"
 #include "pyramid/kernels/rays.inl"
 #include "pyramid/kernels/scale.inl"
 #include "pyramid/kernels/segments.inl"
@@ -28,6 +29,7 @@ constexpr PyramidKernels kTable = {
     .largestDifference3 = largestDifference3,
     .countSourcesAndHoles = countSourcesAndHoles,
     .countNearPlane = countNearPlane,
+    .planeDisparities = planeDisparities,
     .localResidual = localResidual,
     .correlate = correlate,
     .packColors = packColors,
