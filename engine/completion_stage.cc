@@ -78,6 +78,7 @@ void CompletionStage::fillHolesOf(const MatchInput& pair, const SparseStage::Set
                     .right = pair.right,
                     .right_disparity = maps.right_disparity.view(),
                     .scale = options.segment_scale,
+                    .fine = options.fine_segments,
                     .min_disparity = limits.low,
                     .max_disparity = limits.high},
                    maps.disparity.view(), maps.state.view(), *settings.scratch, kernels, settings.threads);

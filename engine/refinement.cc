@@ -9,7 +9,7 @@ namespace pomona {
 void refine(ImageView<float> disparity, GuideView guide, const CompletionOptions& options,
             const FilterKernels& kernels, Arena& scratch, int threads, StageClock& clock) {
   if (options.weighted_median) {
-    weightedMedian(disparity, guide, disparity, scratch, kernels, threads);
+    weightedMedian(disparity, guide, options.median_taps, disparity, scratch, kernels, threads);
     medianFilter(disparity, disparity, 5, kernels, scratch, threads);
     clock.lap("weighted median");
   }

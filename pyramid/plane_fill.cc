@@ -30,6 +30,10 @@ struct Division {
 };
 constexpr std::array<Division, 2> kDivisions = {{{150, 0.3f}, {1350, 0.02f}}};
 
+std::size_t firstDivision(const PlaneFillInput& in) {
+  return in.fine ? 0 : 1;
+}
+
 struct Segments {
   std::int32_t* labels;
   int count;
@@ -54,11 +58,12 @@ Divisions divide(const PlaneFillInput& in, int columns, int rows, Arena& arena, 
   const SegmentationScratch scratch[] = {SegmentationScratch(edges, arena),
                                          SegmentationScratch(edges, arena)};
   static_assert(std::size(scratch) == kDivisions.size());
-  parallelFor(threads, static_cast<int>(kDivisions.size()), [&](int i) {
-    const float k = kDivisions[static_cast<std::size_t>(i)].k / static_cast<float>(in.scale);
+  const std::size_t first = firstDivision(in);
+  parallelFor(threads, static_cast<int>(kDivisions.size() - first), [&](int task) {
+    const std::size_t i = first + static_cast<std::size_t>(task);
+    const float k = kDivisions[i].k / static_cast<float>(in.scale);
     const int min_size = kMinSegment_px / (in.scale * in.scale);
-    Segments& s = divisions[static_cast<std::size_t>(i)];
-    s.count = segment(edges, {k, min_size}, s.labels, scratch[i]);
+    divisions[i].count = segment(edges, {k, min_size}, divisions[i].labels, scratch[i]);
   });
   return divisions;
 }
@@ -92,7 +97,7 @@ void fillFromPlanes(const PlaneFillInput& in, ImageView<float> disparity, ImageV
   const PlaneLimits limits{in.right_disparity, in.min_disparity, in.max_disparity};
   PlaneRows filler(limits, cells, border, disparity, state, kernels);
   SegmentPlane* const planes = scratch.take<SegmentPlane>(static_cast<std::size_t>(columns) * rows);
-  for (std::size_t i = 0; i < kDivisions.size(); ++i) {
+  for (std::size_t i = firstDivision(in); i < kDivisions.size(); ++i) {
     const Segments& s = divisions[i];
     cells.group(s.labels, s.count);
     parallelStrips(threads, s.count, kMinSegmentsPerStrip, [&](int begin, int end) {

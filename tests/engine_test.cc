@@ -517,6 +517,8 @@ TEST(Options, RefusesEveryValueOutOfRange) {
                 {"completion.segment_scale is 3", "1, 2, 4"});
   expectRefused(with([](Options& o) { o.completion.search_radius_px = 0; }),
                 {"completion.search_radius_px is 0"});
+  expectRefused(with([](Options& o) { o.completion.median_taps = 49; }),
+                {"completion.median_taps is 49", "25, 61"});
   expectRefused(with([](Options& o) { o.completion.refine_radius_px = 4; }),
                 {"completion.refine_radius_px is 4", "2, 3"});
   expectRefused(with([](Options& o) { o.completion.sigma_space_px = kNan; }),

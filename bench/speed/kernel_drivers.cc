@@ -112,7 +112,8 @@ void runBilateral(KernelMaterial& m, const KernelTables& tables) {
 }
 
 void runRefinement(KernelMaterial& m, const KernelTables& tables) {
-  weightedMedian(m.dense.view(), m.guide(), m.disparity.view(), m.scratch, tables.filters, 1);
+  for (int taps : kMedianTaps)
+    weightedMedian(m.dense.view(), m.guide(), taps, m.disparity.view(), m.scratch, tables.filters, 1);
   for (int radius : {2, 3})
     refinePlanes(m.dense.view(), m.guide(), radius, m.disparity.view(), m.scratch, tables.filters, 1);
 }

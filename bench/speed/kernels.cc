@@ -26,7 +26,7 @@ KernelTables timedTables(Isa isa) {
   TIMED(filters, leftRight), TIMED(filters, trustCodes), TIMED(filters, trustPairs);
   TIMED(filters, findRuns), TIMED(filters, uniteRuns);
   TIMED(filters, median3x3), TIMED(filters, median5x5), TIMED(filters, jointBilateral);
-  TIMED(filters, nearJumps), TIMED(filters, weightedMedian);
+  TIMED(filters, nearJumps), TIMED(filters, weightedMedian[0]), TIMED(filters, weightedMedian[1]);
   TIMED(filters, refinePlanes[0]), TIMED(filters, refinePlanes[1]);
   TIMED(pyramid, accumulate8), TIMED(pyramid, accumulate16);
   TIMED(pyramid, cubicRow), TIMED(pyramid, cubicColumn);

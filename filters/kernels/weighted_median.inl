@@ -10,19 +10,20 @@ inline Ints orderedBits(Ints bits) {
 }
 
 constexpr int kMedianGroup = 8;  ///< taps that are worked on side by side
-constexpr int kMedianSlots = (MedianWindow::kTaps + kMedianGroup - 1) / kMedianGroup * kMedianGroup;
 
 /// The window of each lane's pixel: ordered bits of the disparities, and their weights. Unknown disparities,
 /// and the slots after the last tap, repeat the centre's key with a weight of 0.
+template <int kTaps>
 struct WeightedTaps {
-  Ints key[kMedianSlots];
-  Floats weight[kMedianSlots];
+  static constexpr int kSlots = (kTaps + kMedianGroup - 1) / kMedianGroup * kMedianGroup;
+  Ints key[kSlots];
+  Floats weight[kSlots];
 };
 
 /// kCount taps from the `first` one on.
-template <int kCount>
+template <int kCount, int kTaps>
 inline void readTaps(const GuidedRow& row, const MedianWindow& window, int first, Ints columns, Ints centre,
-                     Ints centre_color, WeightedTaps& taps) {
+                     Ints centre_color, WeightedTaps<kTaps>& taps) {
   Floats weight[kCount];
   Ints known[kCount];
 #pragma GCC unroll 8
@@ -41,64 +42,71 @@ inline void readTaps(const GuidedRow& row, const MedianWindow& window, int first
   for (int i = 0; i < kCount; ++i) taps.weight[first + i] = floatsOf(bitsOf(weight[i]) & known[i]);
 }
 
-inline void readWindow(const GuidedRow& row, const MedianWindow& window, Ints columns, WeightedTaps& taps) {
-  constexpr int kTaps = MedianWindow::kTaps;
+template <int kTaps>
+inline void readWindow(const GuidedRow& row, const MedianWindow& window, Ints columns,
+                       WeightedTaps<kTaps>& taps) {
   const Ints centre = gather(row.disparity, columns), centre_color = gather(row.color, columns);
   int i = 0;
   for (; i + kMedianGroup <= kTaps; i += kMedianGroup)
     readTaps<kMedianGroup>(row, window, i, columns, centre, centre_color, taps);
   readTaps<kTaps % kMedianGroup>(row, window, i, columns, centre, centre_color, taps);
-  for (i = kTaps; i < kMedianSlots; ++i) {
+  for (i = kTaps; i < taps.kSlots; ++i) {
     taps.key[i] = orderedBits(centre);
     taps.weight[i] = Floats{};
   }
 }
 
-/// The weights of all keys up to `bound`. Adding in one fixed order makes this sum, though rounded, a
-/// monotone function of `bound`.
-inline Floats weightUpTo(const WeightedTaps& taps, Ints bound) {
+/// The window divided by a bound: the weights of all keys up to it, the largest of these keys, and the
+/// smallest of the others.
+struct DividedTaps {
+  Floats weight;
+  Ints last, next;
+};
+
+/// Adding in one fixed order makes the weight, though rounded, a monotone function of `bound`.
+template <int kTaps>
+inline DividedTaps divideTaps(const WeightedTaps<kTaps>& taps, Ints bound) {
+  const Ints lowest = Ints{} + INT32_MIN, highest = Ints{} + INT32_MAX;
   Floats sum[kMedianGroup] = {};
-  for (int first = 0; first < kMedianSlots; first += kMedianGroup)
+  Ints last = lowest, next = highest;
+  for (int first = 0; first < taps.kSlots; first += kMedianGroup)
 #pragma GCC unroll 8
-    for (int i = 0; i < kMedianGroup; ++i)
-      sum[i] += taps.key[first + i] <= bound ? taps.weight[first + i] : Floats{};
-  Floats total = sum[0];
-  for (int i = 1; i < kMedianGroup; ++i) total += sum[i];
-  return total;
+    for (int i = 0; i < kMedianGroup; ++i) {
+      const Ints key = taps.key[first + i], is_below = key <= bound;
+      sum[i] += is_below ? taps.weight[first + i] : Floats{};
+      last = max(last, is_below ? key : lowest);
+      next = min(next, is_below ? highest : key);
+    }
+  for (int i = 1; i < kMedianGroup; ++i) sum[0] += sum[i];
+  return {sum[0], last, next};
 }
 
-/// The smallest `bits` such that 2^bits is above high - low in every lane; low <= high.
-inline int bitsToSearch(Ints low, Ints high) {
-  std::uint32_t all = 0;
-  for (int i = 0; i < kFloatLanes; ++i)
-    all |= static_cast<std::uint32_t>(high[i]) - static_cast<std::uint32_t>(low[i]);
-  return all == 0 ? 0 : 32 - __builtin_clz(all);
-}
-
-/// The smallest key up to which there is half of the weight, by bisection.
-inline Ints weightedMedianKey(const WeightedTaps& taps) {
-  Ints low = taps.key[0], high = low;
-  for (const Ints& key : taps.key) {
-    low = key < low ? key : low;
-    high = key > high ? key : high;
-  }
-  const Floats half = weightUpTo(taps, high) * 0.5f;
-  for (int bits = bitsToSearch(low, high); bits > 0; --bits) {
+/// The smallest key up to which there is half of the weight: by bisection, each half shrunk to the keys in
+/// it.
+template <int kTaps>
+inline Ints weightedMedianKey(const WeightedTaps<kTaps>& taps) {
+  const DividedTaps all = divideTaps(taps, Ints{} + INT32_MAX);
+  const Floats half = all.weight * 0.5f;
+  Ints low = taps.key[0], high = all.last;
+  for (const Ints& key : taps.key) low = min(low, key);
+  while (anyOf(low != high)) {
     const Ints middle = (low & high) + ((low ^ high) >> 1);
-    const Ints enough = weightUpTo(taps, middle) >= half;
-    high = enough ? middle : high;
-    low = enough ? low : middle + 1;
+    const DividedTaps divided = divideTaps(taps, middle);
+    const Ints enough = divided.weight >= half;
+    high = enough ? divided.last : high;
+    low = enough ? low : divided.next;
   }
   return high;
 }
 
+template <int kTaps>
 void weightedMedianAt(const GuidedRow& row, const MedianWindow& window, const std::int32_t* columns,
                       int count, float* out) {
   for (int begin = 0; begin < count; begin += kFloatLanes) {
     const int lanes = count - begin < kFloatLanes ? count - begin : kFloatLanes;
     Ints x;
     for (int i = 0; i < kFloatLanes; ++i) x[i] = columns[begin + (i < lanes ? i : 0)];
-    WeightedTaps taps;
+    WeightedTaps<kTaps> taps;
     readWindow(row, window, x, taps);
     const Floats median = floatsOf(orderedBits(weightedMedianKey(taps)));
     for (int i = 0; i < lanes; ++i) out[x[i]] = median[i];
