@@ -38,16 +38,14 @@ struct GuidedRow {
 /// Of filters/median.h.
 inline constexpr int kMedianOverrun = 18;
 
-/// Of filters/weighted_median.h: every second row and column of 9 x 9, and a checkerboard of 11 x 11.
-inline constexpr int kMedianTaps[] = {25, 61};
-
-/// One of these windows, in reading order.
+/// The window of filters/weighted_median.h, in reading order.
 struct MedianWindow {
-  static constexpr int kRadius = 5;  ///< of the largest
+  static constexpr int kRadius = 5;
+  static constexpr int kTaps = 61;  ///< every other pixel of 11 x 11
 
-  std::int32_t offset[kMedianTaps[1]];  ///< from the pixel, in elements
-  float log_weight[kMedianTaps[1]];     ///< binary logarithm of the spatial weight, <= 0
-  float color_scale;  ///< taken from it per unit of the colour difference, summed over the channels
+  std::int32_t offset[kTaps];  ///< from the pixel, in elements
+  float log_weight[kTaps];     ///< binary logarithm of the spatial weight, <= 0
+  float color_scale;           ///< taken from it per unit of the colour difference, summed over the channels
 };
 
 /// Of filters/plane_refine.h.
@@ -132,9 +130,8 @@ struct FilterKernels {
   /// `threshold_px`, else 0.
   void (*nearJumps)(const GuidedRow& row, int width, float threshold_px, std::uint8_t* near);
   /// out[x] = the weighted median around x, for the `count` known pixels whose columns x are given.
-  /// One for each of kMedianTaps.
-  void (*weightedMedian[2])(const GuidedRow& row, const MedianWindow& window, const std::int32_t* columns,
-                            int count, float* out);
+  void (*weightedMedian)(const GuidedRow& row, const MedianWindow& window, const std::int32_t* columns,
+                         int count, float* out);
   /// One row of filters/plane_refine.h, for a window radius of 2 and of 3.
   void (*refinePlanes[2])(const GuidedRow& row, int width, float* out);
 };

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
-#include <string>
 
 #include "core/parallel.h"
 #include "filters/guided_plane.h"
@@ -17,17 +15,13 @@ constexpr double kDistanceScale_px = 9;
 constexpr double kColorScale = 8;
 constexpr int kSegment = 1024;  // columns of one kernel call at most
 
-bool isTap(int taps, int dx, int dy) {
-  return taps == kMedianTaps[0] ? dx % 2 == 0 && dy % 2 == 0 : (dx + dy) % 2 == 0;
-}
-
-MedianWindow makeWindow(int taps, std::ptrdiff_t stride) {
+MedianWindow makeWindow(std::ptrdiff_t stride) {
   constexpr int kRadius = MedianWindow::kRadius;
   MedianWindow window;
   int tap = 0;
   for (int dy = -kRadius; dy <= kRadius; ++dy)
     for (int dx = -kRadius; dx <= kRadius; ++dx) {
-      if (!isTap(taps, dx, dy)) continue;
+      if ((dx + dy) % 2 != 0) continue;
       const double distance = std::sqrt(dx * dx + dy * dy);
       window.offset[tap] = static_cast<std::int32_t>(dy * stride + dx);
       window.log_weight[tap++] = static_cast<float>(-distance * std::numbers::log2e / kDistanceScale_px);
@@ -48,15 +42,12 @@ int chosenColumns(const std::uint8_t* near_jump, int begin, int end, std::int32_
 
 }  // namespace
 
-void weightedMedian(ImageView<const float> in, GuideView guide, int taps, ImageView<float> out,
-                    Arena& scratch, const FilterKernels& kernels, int threads) {
-  if (taps != kMedianTaps[0] && taps != kMedianTaps[1])
-    throw std::invalid_argument("weighted median taps are " + std::to_string(taps) + "; allowed: 25, 61");
+void weightedMedian(ImageView<const float> in, GuideView guide, ImageView<float> out, Arena& scratch,
+                    const FilterKernels& kernels, int threads) {
   const int width = in.width;
-  const auto median_at = kernels.weightedMedian[taps == kMedianTaps[1]];
   const Arena::Scope scope(scratch);
   const GuidedPlane plane(in, guide, MedianWindow::kRadius, scratch, threads);
-  const MedianWindow window = makeWindow(taps, plane.row(0).stride);
+  const MedianWindow window = makeWindow(plane.row(0).stride);
   const auto jumps = scratch.image<std::uint8_t>(width, in.height);
   parallelStrips(threads, in.height, 4, [&](int y_begin, int y_end) {
     for (int y = y_begin; y < y_end; ++y) {
@@ -67,7 +58,7 @@ void weightedMedian(ImageView<const float> in, GuideView guide, int taps, ImageV
       std::int32_t columns[kSegment];
       for (int x = 0; x < width; x += kSegment) {
         const int count = chosenColumns(near_jump, x, std::min(width, x + kSegment), columns);
-        median_at(row, window, columns, count, out.row(y));
+        kernels.weightedMedian(row, window, columns, count, out.row(y));
       }
     }
   });

@@ -18,15 +18,14 @@ namespace pomona {
 ///   sum of w(p, q) over q with in(q) <= v  >=  half the sum of w(p, q) over all q,
 ///   w(p, q) = exp(-|I(p) - I(q)| / 8 - |p - q| / 9),
 ///
-/// with |I(p) - I(q)| the mean over the channels, in 8-bit units, and |p - q| in pixels. The window has 61
-/// `taps`, a checkerboard: of the 11 x 11 pixels around p, clipped to the image, those with an even |x| + |y|
-/// from p; for the same time, it serves better than a full 7 x 7. Or 25: of the 9 x 9 pixels, those with an
-/// even |x| and an even |y|. Unknown pixels (NaN) are neither read nor written. Weights are exact to a
-/// relative 1e-5, unless they are below 2^-100.
+/// with |I(p) - I(q)| the mean over the channels, in 8-bit units, and |p - q| in pixels. The window is a
+/// checkerboard: of the 11 x 11 pixels around p, clipped to the image, those with an even |x| + |y| from p;
+/// for the same time, it serves better than a full 7 x 7. Unknown pixels (NaN) are neither read nor written.
+/// Weights are exact to a relative 1e-5, unless they are below 2^-100.
 ///
 /// `in`, `guide` and `out` have the same size; `out` may be `in`. Disparities are finite or NaN. Throws
-/// std::invalid_argument if the guide has other than 1 or 3 channels, or `taps` is another number.
-void weightedMedian(ImageView<const float> in, GuideView guide, int taps, ImageView<float> out,
-                    Arena& scratch, const FilterKernels& kernels, int threads);
+/// std::invalid_argument if the guide has other than 1 or 3 channels.
+void weightedMedian(ImageView<const float> in, GuideView guide, ImageView<float> out, Arena& scratch,
+                    const FilterKernels& kernels, int threads);
 
 }  // namespace pomona

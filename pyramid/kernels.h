@@ -26,8 +26,8 @@ struct CandidateSources {
   std::int32_t disparity_stride;
   const float* right_disparity;
   std::int32_t right_stride;
-  const std::uint32_t* color;  ///< up to three bytes a pixel, see packColors
-  std::int32_t color_stride;
+  const std::uint8_t* guide;  ///< 1 or 3 `channels` side by side
+  std::int32_t guide_stride, channels;
   std::int32_t width;
   float visibility_tolerance_px;
   const std::uint32_t* color_weight;     ///< by the sum of absolute differences of the bytes; below 2^16
@@ -113,15 +113,11 @@ struct PyramidKernels {
   void (*correlate)(const std::int8_t* left, const std::int8_t* right, int n, int places,
                     std::int32_t* products, std::int32_t* squares);
 
-  /// out[i] = the bytes of pixel i, the first in the lowest place
-  void (*packColors)(const std::uint8_t* in, int channels, int n, std::uint32_t* out);
-
-  /// The candidate (disparity, weight) that a ray gives each of n <= kHoleBatch holes at (x, y) of colour
-  /// `here`, see fillHoles(). `steps` is 0xffff where the ray meets no source; that, and an impossible
+  /// The candidate (disparity, weight) that a ray gives each of n <= kHoleBatch holes at (x, y), see
+  /// fillHoles(). `steps` is 0xffff where the ray meets no source; that, and an impossible
   /// candidate, gives (+infinity, 0).
   void (*gatherCandidates)(const CandidateSources& sources, const std::int32_t* x, const std::int32_t* y,
-                           const std::uint32_t* here, const std::uint16_t* steps, int n, float* disparity,
-                           std::uint32_t* weight);
+                           const std::uint16_t* steps, int n, float* disparity, std::uint32_t* weight);
 
   /// For each of n <= kHoleBatch holes the smallest of its kHoleRays disparities (plane k at k n) that has,
   /// together with the smaller ones, at least half of all weight, whose sum must fit 32 bits; +infinity

@@ -112,8 +112,7 @@ void runBilateral(KernelMaterial& m, const KernelTables& tables) {
 }
 
 void runRefinement(KernelMaterial& m, const KernelTables& tables) {
-  for (int taps : kMedianTaps)
-    weightedMedian(m.dense.view(), m.guide(), taps, m.disparity.view(), m.scratch, tables.filters, 1);
+  weightedMedian(m.dense.view(), m.guide(), m.disparity.view(), m.scratch, tables.filters, 1);
   for (int radius : {2, 3})
     refinePlanes(m.dense.view(), m.guide(), radius, m.disparity.view(), m.scratch, tables.filters, 1);
 }

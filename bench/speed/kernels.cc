@@ -26,7 +26,7 @@ KernelTables timedTables(Isa isa) {
   TIMED(filters, leftRight), TIMED(filters, trustCodes), TIMED(filters, trustPairs);
   TIMED(filters, findRuns), TIMED(filters, uniteRuns);
   TIMED(filters, median3x3), TIMED(filters, median5x5), TIMED(filters, jointBilateral);
-  TIMED(filters, nearJumps), TIMED(filters, weightedMedian[0]), TIMED(filters, weightedMedian[1]);
+  TIMED(filters, nearJumps), TIMED(filters, weightedMedian);
   TIMED(filters, refinePlanes[0]), TIMED(filters, refinePlanes[1]);
   TIMED(pyramid, accumulate8), TIMED(pyramid, accumulate16);
   TIMED(pyramid, cubicRow), TIMED(pyramid, cubicColumn);
@@ -36,7 +36,7 @@ KernelTables timedTables(Isa isa) {
   TIMED(pyramid, difference1), TIMED(pyramid, largestDifference3);
   TIMED(pyramid, countSourcesAndHoles), TIMED(pyramid, countNearPlane), TIMED(pyramid, planeDisparities);
   TIMED(pyramid, localResidual), TIMED(pyramid, correlate);
-  TIMED(pyramid, packColors), TIMED(pyramid, gatherCandidates), TIMED(pyramid, candidateMedian);
+  TIMED(pyramid, gatherCandidates), TIMED(pyramid, candidateMedian);
   TIMED(camera, interpolate8), TIMED(camera, interpolate16);
   TIMED(camera, reduceBlocks), TIMED(camera, contrast);
 #undef TIMED

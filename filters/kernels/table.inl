@@ -23,7 +23,7 @@ constexpr FilterKernels kTable = {.leftRight = leftRightRow,
                                   .median5x5 = medianRow5x5,
                                   .jointBilateral = jointBilateralBlock,
                                   .nearJumps = markNearJumps,
-                                  .weightedMedian = {weightedMedianAt<kMedianTaps[0]>, weightedMedianAt<kMedianTaps[1]>},
+                                  .weightedMedian = weightedMedianAt,
                                   .refinePlanes = {refinePlanesRow<2>, refinePlanesRow<3>}};
 
 }  // namespace

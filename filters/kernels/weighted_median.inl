@@ -10,20 +10,19 @@ inline Ints orderedBits(Ints bits) {
 }
 
 constexpr int kMedianGroup = 8;  ///< taps that are worked on side by side
+constexpr int kMedianSlots = (MedianWindow::kTaps + kMedianGroup - 1) / kMedianGroup * kMedianGroup;
 
 /// The window of each lane's pixel: ordered bits of the disparities, and their weights. Unknown disparities,
 /// and the slots after the last tap, repeat the centre's key with a weight of 0.
-template <int kTaps>
 struct WeightedTaps {
-  static constexpr int kSlots = (kTaps + kMedianGroup - 1) / kMedianGroup * kMedianGroup;
-  Ints key[kSlots];
-  Floats weight[kSlots];
+  Ints key[kMedianSlots];
+  Floats weight[kMedianSlots];
 };
 
 /// kCount taps from the `first` one on.
-template <int kCount, int kTaps>
+template <int kCount>
 inline void readTaps(const GuidedRow& row, const MedianWindow& window, int first, Ints columns, Ints centre,
-                     Ints centre_color, WeightedTaps<kTaps>& taps) {
+                     Ints centre_color, WeightedTaps& taps) {
   Floats weight[kCount];
   Ints known[kCount];
 #pragma GCC unroll 8
@@ -42,15 +41,14 @@ inline void readTaps(const GuidedRow& row, const MedianWindow& window, int first
   for (int i = 0; i < kCount; ++i) taps.weight[first + i] = floatsOf(bitsOf(weight[i]) & known[i]);
 }
 
-template <int kTaps>
-inline void readWindow(const GuidedRow& row, const MedianWindow& window, Ints columns,
-                       WeightedTaps<kTaps>& taps) {
+inline void readWindow(const GuidedRow& row, const MedianWindow& window, Ints columns, WeightedTaps& taps) {
+  constexpr int kTaps = MedianWindow::kTaps;
   const Ints centre = gather(row.disparity, columns), centre_color = gather(row.color, columns);
   int i = 0;
   for (; i + kMedianGroup <= kTaps; i += kMedianGroup)
     readTaps<kMedianGroup>(row, window, i, columns, centre, centre_color, taps);
   readTaps<kTaps % kMedianGroup>(row, window, i, columns, centre, centre_color, taps);
-  for (i = kTaps; i < taps.kSlots; ++i) {
+  for (i = kTaps; i < kMedianSlots; ++i) {
     taps.key[i] = orderedBits(centre);
     taps.weight[i] = Floats{};
   }
@@ -64,12 +62,11 @@ struct DividedTaps {
 };
 
 /// Adding in one fixed order makes the weight, though rounded, a monotone function of `bound`.
-template <int kTaps>
-inline DividedTaps divideTaps(const WeightedTaps<kTaps>& taps, Ints bound) {
+inline DividedTaps divideTaps(const WeightedTaps& taps, Ints bound) {
   const Ints lowest = Ints{} + INT32_MIN, highest = Ints{} + INT32_MAX;
   Floats sum[kMedianGroup] = {};
   Ints last = lowest, next = highest;
-  for (int first = 0; first < taps.kSlots; first += kMedianGroup)
+  for (int first = 0; first < kMedianSlots; first += kMedianGroup)
 #pragma GCC unroll 8
     for (int i = 0; i < kMedianGroup; ++i) {
       const Ints key = taps.key[first + i], is_below = key <= bound;
@@ -83,8 +80,7 @@ inline DividedTaps divideTaps(const WeightedTaps<kTaps>& taps, Ints bound) {
 
 /// The smallest key up to which there is half of the weight: by bisection, each half shrunk to the keys in
 /// it.
-template <int kTaps>
-inline Ints weightedMedianKey(const WeightedTaps<kTaps>& taps) {
+inline Ints weightedMedianKey(const WeightedTaps& taps) {
   const DividedTaps all = divideTaps(taps, Ints{} + INT32_MAX);
   const Floats half = all.weight * 0.5f;
   Ints low = taps.key[0], high = all.last;
@@ -99,14 +95,13 @@ inline Ints weightedMedianKey(const WeightedTaps<kTaps>& taps) {
   return high;
 }
 
-template <int kTaps>
 void weightedMedianAt(const GuidedRow& row, const MedianWindow& window, const std::int32_t* columns,
                       int count, float* out) {
   for (int begin = 0; begin < count; begin += kFloatLanes) {
     const int lanes = count - begin < kFloatLanes ? count - begin : kFloatLanes;
     Ints x;
     for (int i = 0; i < kFloatLanes; ++i) x[i] = columns[begin + (i < lanes ? i : 0)];
-    WeightedTaps<kTaps> taps;
+    WeightedTaps taps;
     readWindow(row, window, x, taps);
     const Floats median = floatsOf(orderedBits(weightedMedianKey(taps)));
     for (int i = 0; i < lanes; ++i) out[x[i]] = median[i];

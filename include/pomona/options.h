@@ -90,10 +90,9 @@ struct CompletionOptions {
   /// farther away the coarse maps decide. At least 1.
   int search_radius_px = 200;
   /// kFillHoles: move the jumps of the dense map to the edges of the left image, by a colour-weighted median
-  /// near jumps of more than 1 px, and a 5 x 5 median of the whole map. Measured pixels change, too.
+  /// near jumps of more than 1 px. Measured pixels change, too.
   bool weighted_median = true;
-  int median_taps =
-      61;  ///< pixels that the weighted median looks at: 61, or 25, faster and a little less sharp
+  int median_size = 5;  ///< kFillHoles: then a median of the whole map; 0 (off), 3 or 5
   /// kFillHoles: replace each disparity by a plane through the neighbours of like disparity and colour.
   bool plane_refinement = true;
   int refine_radius_px = 2;  ///< of the window of that plane: 2 or 3

@@ -2,6 +2,7 @@
 #include "core/simd/float.h"
 #include "pyramid/kernels.h"
 // clang-format off: the bodies have no includes of their own
+#include "pyramid/kernels/difference.inl"
 #include "pyramid/kernels/candidates.inl"
 #include "pyramid/kernels/laplacian.inl"
 #include "pyramid/kernels/planes.inl"
@@ -32,7 +33,6 @@ constexpr PyramidKernels kTable = {
     .planeDisparities = planeDisparities,
     .localResidual = localResidual,
     .correlate = correlate,
-    .packColors = packColors,
     .gatherCandidates = gatherCandidates,
     .candidateMedian = candidateMedian,
 };

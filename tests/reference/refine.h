@@ -33,12 +33,10 @@ struct WeightShare {
   double below = 0, up_to = 0;
 };
 
-/// `taps`: 61, on a checkerboard of 11 x 11, or 25, on every second row and column of 9 x 9.
-inline WeightShare weightShare(const Map<float>& map, GuideView guide, int taps, int y, int x, float value) {
+inline WeightShare weightShare(const Map<float>& map, GuideView guide, int y, int x, float value) {
   double below = 0, up_to = 0, all = 0;
-  forEachKnown(map, y, x, taps == 61 ? 5 : 4, [&](int v, int u) {
+  forEachKnown(map, y, x, 5, [&](int v, int u) {
     if ((std::abs(v - y) + std::abs(u - x)) % 2 == 1) return;
-    if (taps == 25 && (v - y) % 2 != 0) return;
     double color = 0;
     for (int c = 0; c < guide.channels; ++c)
       color += std::abs(guide.row(v)[u * guide.channels + c] - guide.row(y)[x * guide.channels + c]);
