@@ -134,6 +134,14 @@ POMONA_OP void sweepRow(const AggregateRow& row, Emit&& emit, Done&& done) {
   done(x - kStep, (count - 1) % pomona::kWinnerBlock + 1);
 }
 
+/// Asks for the sums that the walk comes to a page later, where vector j of a pixel begins a line of the
+/// cache: the hardware fetches ahead of a walk, but not across pages.
+template <int kStep>
+POMONA_OP void fetchSums(const std::uint8_t* sums, int j) {
+  constexpr int kPage = 4096, kLine = 64;
+  if (j * simd::kBytes % kLine == 0) __builtin_prefetch(sums + kStep * kPage);
+}
+
 /// Sum of the sweep's path costs for vector j, modulo 256.
 template <bool kDiagonals>
 POMONA_OP U8 byteSum(U8 behind, U8 straight, U8 ahead, U8 horizontal) {
@@ -165,7 +173,9 @@ void firstPass(const AggregateRow& r) {
             simd::store16(sums, low);
             simd::store16(sums + simd::kBytes / 2, high);
           } else {
-            simd::store(static_cast<std::uint8_t*>(r.sums) + at, byteSum<kDiagonals>(b[j], s[j], a[j], h[j]));
+            std::uint8_t* const sums = static_cast<std::uint8_t*>(r.sums) + at;
+            fetchSums<1>(sums, j);
+            simd::store(sums, byteSum<kDiagonals>(b[j], s[j], a[j], h[j]));
           }
         }
       },
@@ -185,20 +195,22 @@ void lastPass(const AggregateRow& r, const WinnerRow& w) {
         U16 sums[2 * kCapacity<kVectors>];
         for (int j = 0; j < n; ++j) {
           const std::ptrdiff_t at = (x * n + j) * simd::kBytes;
+          const auto* const bytes = static_cast<const std::uint8_t*>(r.sums) + at;
+          if constexpr (!kWide) fetchSums<-1>(bytes, j);
           if constexpr (kWide) {
             wordSum<kDiagonals>(b[j], s[j], a[j], h[j], sums[2 * j], sums[2 * j + 1]);
             const auto* first = static_cast<const std::uint16_t*>(r.sums) + at;
             sums[2 * j] = simd::add16(sums[2 * j], simd::load16(first));
             sums[2 * j + 1] = simd::add16(sums[2 * j + 1], simd::load16(first + simd::kBytes / 2));
           } else if constexpr (kCheapCost) {
-            const U8 first = simd::load(static_cast<const std::uint8_t*>(r.sums) + at);
+            const U8 first = simd::load(bytes);
             const U8 last = byteSum<kDiagonals>(b[j], s[j], a[j], h[j]);
             sums[2 * j] = simd::addScaledLow<1>(first, last);
             sums[2 * j + 1] = simd::addScaledHigh<1>(first, last);
           } else {
             constexpr int kPaths = kDiagonals ? 4 : 2;
             const U8 twice = simd::add(c[j], c[j]), base = kDiagonals ? simd::add(twice, twice) : twice;
-            const U8 first = simd::sub(simd::load(static_cast<const std::uint8_t*>(r.sums) + at), base);
+            const U8 first = simd::sub(simd::load(bytes), base);
             const U8 last = simd::sub(byteSum<kDiagonals>(b[j], s[j], a[j], h[j]), base);
             sums[2 * j] = simd::add16(simd::addScaledLow<2 * kPaths>(last, c[j]), simd::widenLow(first));
             sums[2 * j + 1] =
