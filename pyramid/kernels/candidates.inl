@@ -3,6 +3,10 @@
 namespace pomona {
 namespace {
 
+inline int absoluteDifference(int a, int b) {
+  return a > b ? a - b : b - a;
+}
+
 /// The sums over the channels between the pixels at byte offsets a[i] and b[i]. One at a time on purpose:
 /// left to itself, GCC takes vectors of offsets apart, which is slower.
 __attribute__((optimize("no-tree-vectorize"))) void colorDifferences(const std::uint8_t* guide, int channels,

@@ -21,7 +21,8 @@ struct LanePlanes {
   }
 };
 
-/// Lanes at whose place the right view sees something behind `e`; see wouldHideFromRight() in pyramid/holes.h.
+/// Lanes at whose place the right view sees something behind `e`; see wouldHideFromRight() in
+/// pyramid/holes.h.
 inline Ints hidesFromRight(const PlaneFillRow& row, Ints x, Floats e) {
   const Floats last = broadcast(static_cast<float>(row.width));
   // floor(), with what is beyond the image drawn to its very edge so that it fits an integer
@@ -42,7 +43,8 @@ void planeDisparities(const PlaneFillRow& row, const std::int32_t* x, const std:
     Floats e = planes.at(columns, row.y);
     e = e < planes.low ? planes.low : e;
     e = e > planes.high ? planes.high : e;
-    const Ints before = columns < row.left_x, behind = columns > row.right_x;
+    const Ints before = columns < row.left_x;
+    const Ints behind = columns > row.right_x;
     const Ints border_x = before ? Ints{} + row.left_x : Ints{} + row.right_x;
     const Floats border = before ? broadcast(row.beyond_left_px) : broadcast(row.beyond_right_px);
     const Floats off = planes.at(border_x, row.y) - border;

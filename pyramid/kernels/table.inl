@@ -2,7 +2,6 @@
 #include "core/simd/float.h"
 #include "pyramid/kernels.h"
 // clang-format off: the bodies have no includes of their own
-#include "pyramid/kernels/difference.inl"
 #include "pyramid/kernels/candidates.inl"
 #include "pyramid/kernels/laplacian.inl"
 #include "pyramid/kernels/planes.inl"
