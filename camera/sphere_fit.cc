@@ -103,8 +103,13 @@ struct NormalEquations {
   }
 };
 
+// How far samples may be off, as shares of the reach.
+struct Reach {
+  double before, behind;
+};
+
 NormalEquations normalEquations(const FittedSphere& sphere, const RegionSamples& region,
-                                const StereoCalibration& calibration) {
+                                const StereoCalibration& calibration, const Reach& reach) {
   constexpr double kSteepest = 0.45;  // cosine of the slant against the line of sight
   // A leaf lies 1 or 2 cm before its fruit: far away, that is less than a pixel, and no outlier to a wider
   // reach.
@@ -124,10 +129,14 @@ NormalEquations normalEquations(const FittedSphere& sphere, const RegionSamples&
     const double residual = s.parallax_px - parallax_px;
     const double sigma_px = std::max(s.sigma_px, kSmallestSigma_px);
     const double shape_px = kShapeError * sphere.radius_m * parallax_px / t;
-    const double reach_px = std::min(kReach_sigmas * std::hypot(sigma_px, shape_px), kMostReach_px);
-    if (residual <= -reach_px) equations.seen_through += s.central_trust;
-    if (std::abs(residual) >= reach_px) continue;
-    const double u = residual / reach_px, biweight = (1 - u * u) * (1 - u * u);
+    const double reach_px2 =
+        std::min(kReach_sigmas * kReach_sigmas * (sigma_px * sigma_px + shape_px * shape_px),
+                 kMostReach_px * kMostReach_px);
+    const double share = residual > 0 ? reach.before : reach.behind;
+    const double off2 = residual * residual / reach_px2, u2 = off2 / (share * share);
+    if (residual < 0 && off2 >= 1) equations.seen_through += s.central_trust;
+    if (u2 >= 1) continue;
+    const double biweight = (1 - u2) * (1 - u2);
     const double weight = s.trust * biweight / (sigma_px * sigma_px);
     const cv::Vec3d normal = (s.ray * t - sphere.center_m) * (1 / sphere.radius_m);
     const double scale = parallax_px / t / (depth_in_sphere / sphere.radius_m);  // -dp/dt / -(r n)
@@ -178,11 +187,15 @@ std::vector<FittedSphere> vote(const RegionSamples& region, const Outline& outli
 std::optional<FittedSphere> refine(const FittedSphere& guess, const RegionSamples& region,
                                    const Outline& outline, const RadiusPrior& prior,
                                    const StereoCalibration& calibration) {
-  constexpr int kRounds = 7;
+  // Nothing is seen through a fruit: so what is off to the near side is another thing sooner than what is off
+  // to the far side, until the sphere is found. Then an uneven reach would only draw it away.
+  constexpr Reach kUneven{0.5, 1}, kEven{0.5, 0.5};
+  constexpr int kRounds = 7, kUnevenRounds = 5;
   constexpr double kSmallest = 0.4, kLargest = 1.4, kSigmas = 3;  // of the outline's radius; of the prior's
   FittedSphere sphere = guess;
   for (int round = 0;; ++round) {
-    NormalEquations equations = normalEquations(sphere, region, calibration);
+    const Reach& reach = round < kUnevenRounds ? kUneven : kEven;
+    NormalEquations equations = normalEquations(sphere, region, calibration, reach);
     const double distance_m = cv::norm(sphere.center_m);
     const double outline_m = outline.radius_px / calibration.focal_px * distance_m;
     const RadiusPrior radius = prior.radius_m > 0 ? prior : RadiusPrior{outline_m, kRoughly * outline_m};

@@ -39,9 +39,9 @@ std::vector<FittedSphere> vote(const RegionSamples& region, const Outline& outli
                                const StereoCalibration& calibration);
 
 /// Refines a guess: least squares in pixels of disparity over the samples, weighted by trust and sigma_px,
-/// without those that are off by too much (Tukey's biweight) or on the sphere's rim, where matching windows
-/// reach beyond it. The outline says how large the sphere is, roughly, where the prior doesn't. None if the
-/// samples do not determine one.
+/// without those that are off by too much (Tukey's biweight, which at first reaches half as far towards the
+/// camera as away from it) or on the sphere's rim, where matching windows reach beyond it. The outline says
+/// how large the sphere is, roughly, where the prior doesn't. None if the samples do not determine one.
 std::optional<FittedSphere> refine(const FittedSphere& guess, const RegionSamples& region,
                                    const Outline& outline, const RadiusPrior& prior,
                                    const StereoCalibration& calibration);

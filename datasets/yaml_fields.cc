@@ -19,7 +19,7 @@ int lineOf(const YAML::Node& node) {
 
 // "4 values (-458.6, 457.3, 367.2, 248.4)": short lists are told value by value.
 std::string listText(const YAML::Node& list) {
-  constexpr std::size_t kMostShown = 8;
+  constexpr std::size_t kMostShown = 9;
   std::string values;
   for (const YAML::Node& item : list) {
     if (!item.IsScalar() || list.size() > kMostShown) return std::to_string(list.size()) + " values";
@@ -145,11 +145,11 @@ std::vector<double> YamlFields::numbers(const std::string& key) const {
 }
 
 void YamlFields::fail(const std::string& key, const std::string& allowed) const {
-  const YAML::Node node = get(key);
-  const std::string value = node.IsScalar()     ? quoted(node.Scalar())
-                            : node.IsSequence() ? listText(node)
-                            : node.IsMap()      ? "a matrix or map"
-                                                : "nothing";
+  const YAML::Node node = get(key), numbers = node.IsMap() && node["data"] ? node["data"] : node;
+  const std::string value = numbers.IsScalar()     ? quoted(numbers.Scalar())
+                            : numbers.IsSequence() ? listText(numbers)
+                            : numbers.IsMap()      ? "a map"
+                                                   : "nothing";
   failAtLine(path_, std::max(1, lineOf(node)), name_ + key + " is " + value + "; allowed: " + allowed);
 }
 

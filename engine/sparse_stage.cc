@@ -29,17 +29,21 @@ void removeRejected(MatchMaps& maps, ImageView<const std::uint8_t> mask, int thr
   });
 }
 
-/// Rows [begin, end) of the pair.
-MatchInput cropped(const MatchInput& pair, int begin, int end) {
-  const auto rows = [&](const auto& image) {
-    auto part = image;
-    if (image.data == nullptr) return part;
-    part.data = image.row(begin);
-    part.height = end - begin;
-    return part;
+/// Rows [begin, end) of those columns of the pair.
+MatchInput cropped(const MatchInput& pair, int begin, int end, const PartnerColumns& columns) {
+  const auto part = [&](auto image, int x, int channels) {
+    if (image.data == nullptr) return image;
+    image.data = image.row(begin) + x * channels;
+    image.width = columns.width;
+    image.height = end - begin;
+    return image;
   };
-  return {rows(pair.left),    rows(pair.right), rows(pair.left16),
-          rows(pair.right16), rows(pair.guide), rows(pair.prior)};
+  return {part(pair.left, columns.left, 1),
+          part(pair.right, columns.right, 1),
+          part(pair.left16, columns.left, 1),
+          part(pair.right16, columns.right, 1),
+          part(pair.guide, columns.left, pair.guide.channels),
+          part(pair.prior, columns.left, 1)};
 }
 
 }  // namespace
@@ -48,26 +52,27 @@ void SparseStage::matchBand(const MatchInput& pair, const Settings& s, const Sea
   const SgmKernels& kernels = sgmKernels(s.isa);
   const int begin = std::max(0, band.y - SearchBand::kMargin_px);
   const int end = std::min(pair.left.height, band.y + band.height + SearchBand::kMargin_px);
+  const auto columns = PartnerColumns::of(pair.left.width, band.min_disparity, band.disparities);
   MatchOptions options = s.match;
   options.min_disparity = band.min_disparity;
   options.disparities = band.disparities;
+  MatchOptions shifted = options;
+  shifted.min_disparity -= columns.shiftPx();
+  shifted.prior_shift_px = columns.shiftPx();
   const auto finish = [&](int row, const WinnerRow& winners) {
     const int y = begin + row;
-    if (y >= band.y && y < band.y + band.height) finishRow(winners, y, options, kernels, maps_);
+    if (y >= band.y && y < band.y + band.height) finishRow(winners, y, columns, options, kernels, maps_);
   };
-  matcher_.findWinners(cropped(pair, begin, end), options, s.mutual_information, kernels, finish, *s.scratch,
-                       s.threads);
+  matcher_.findWinners(cropped(pair, begin, end, columns), shifted, s.mutual_information, kernels, finish,
+                       *s.scratch, s.threads);
 }
 
 void SparseStage::run(const MatchInput& pair, const Settings& s, StageClock& clock,
                       std::span<const SearchBand> bands) {
   const ValidationOptions& v = s.validation;
-  if (bands.empty()) {
-    matcher_.match(pair, s.match, s.mutual_information, sgmKernels(s.isa), maps_, *s.scratch, s.threads);
-  } else {
-    maps_.resize(pair.left.width, pair.left.height);
-    for (const SearchBand& band : bands) matchBand(pair, s, band);
-  }
+  maps_.resize(pair.left.width, pair.left.height);
+  const SearchBand whole{0, pair.left.height, s.match.min_disparity, s.match.disparities};
+  for (const SearchBand& band : bands.empty() ? std::span(&whole, 1) : bands) matchBand(pair, s, band);
   if (!s.mask.empty() || s.match.winner.uniqueness_percent > 0) removeRejected(maps_, s.mask, s.threads);
   clock.lap("matching");
 

@@ -164,8 +164,8 @@ void MatchingCostRows::makeRamps(int weight, int reach_px) {
     }
 }
 
-void MatchingCostRows::preparePrior(ImageView<const float> map, int weight, int reach_px, Arena& arena,
-                                    int threads) {
+void MatchingCostRows::preparePrior(ImageView<const float> map, int shift_px, int weight, int reach_px,
+                                    Arena& arena, int threads) {
   has_prior_ = true;
   maximum_ += weight * reach_px;
   makeRamps(weight, reach_px);
@@ -173,7 +173,7 @@ void MatchingCostRows::preparePrior(ImageView<const float> map, int weight, int 
   parallelStrips(threads, height_, 16, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
       for (int x = 0; x < width_; ++x) {
-        const float index = map.at(y, x) - static_cast<float>(range_.min_disparity);
+        const float index = map.at(y, x) - static_cast<float>(range_.min_disparity + shift_px);
         prior_.row(y)[x] = std::isnan(index) ? kNoIndex
                                              : static_cast<std::uint16_t>(std::clamp(
                                                    std::floor(kPriorSteps * index + 0.5f), 0.0f,

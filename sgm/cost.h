@@ -48,9 +48,10 @@ class MatchingCostRows {
   void setRight(const Features& right, int threads);
   /// Afterwards CostRowReader averages over neighbours whose colour step is below `color_step`; 0: over none.
   void prepareSupport(const ColorSteps& steps, int color_step, Arena& arena, int threads);
-  /// Afterwards CostRowReader adds weight * min(|d - map|, reach_px); a NaN adds nothing. The map is not
-  /// looked at again.
-  void preparePrior(ImageView<const float> map, int weight, int reach_px, Arena& arena, int threads);
+  /// Afterwards CostRowReader adds weight * min(|d + shift_px - map|, reach_px); a NaN adds nothing. The map
+  /// is not looked at again.
+  void preparePrior(ImageView<const float> map, int shift_px, int weight, int reach_px, Arena& arena,
+                    int threads);
 
   /// Whether costs are so cheap that whoever needs them computes them himself, from censusRow().
   bool areCheap() const { return kind_ == Kind::kCensus && planes_ == 3 && !supported_ && !has_prior_; }

@@ -105,8 +105,9 @@ struct WinnerRow {
   const std::uint16_t* position;  ///< wordPosition of every disparity index; the ends repeat, from -1 on to
                                   ///< index_mask + 1
   int index_mask;                 ///< winnerIndexMask(disparities)
-  const std::uint16_t* labels;    ///< disparity index of every word position, kNoIndex for padding
-  int label_bits;                 ///< labelBits()
+  const std::uint16_t* labels;    ///< of every word position the disparity index, without its shared_bits
+                                  ///< lowest bits; kNoIndex for padding
+  int label_bits, shared_bits;    ///< labelBits(), sharedBits()
   const std::uint16_t* near;      ///< if label_bits > 0: per index, 0xFFFF at the positions at most one away
   bool padded;                    ///< whether there are padded disparities
   const std::uint16_t* padding;   ///< 0xFFFF at padded word positions, 0 elsewhere
@@ -193,11 +194,19 @@ constexpr int winnerIndexMask(int disparities) {
   return mask;
 }
 
-/// How many bits of a word the disparity index may have beside sums of up to `largest_sum`: 6, 7, or 0 if it
-/// needs more than sums leave. The word 0xFFFF stays free.
+/// How many bits of a word the disparity index may have beside sums of up to `largest_sum`: 6, 7, or 0 if
+/// fewer are left. The word 0xFFFF stays free.
 constexpr int labelBits(int lanes, int largest_sum) {
-  const int bits = lanes <= 64 ? 6 : lanes <= 128 ? 7 : 16;
-  return largest_sum < 0xFFFF >> bits ? bits : 0;
+  for (int bits = lanes <= 64 ? 6 : 7; bits >= 6; --bits)
+    if (largest_sum < 0xFFFF >> bits) return lanes <= 256 ? bits : 0;
+  return 0;
+}
+
+/// How many of the lowest bits of an index its label leaves out: disparities that differ in these share one.
+constexpr int sharedBits(int lanes, int label_bits) {
+  int bits = 0;
+  while (label_bits > 0 && lanes > 1 << (label_bits + bits)) ++bits;
+  return bits;
 }
 
 /// Where the 16-bit sum of disparity index d stands among those of its pixel.

@@ -1,6 +1,7 @@
 #include "sgm/matcher.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "pomona/pixel_state.h"
 #include "sgm/census.h"
@@ -8,24 +9,46 @@
 #include "sgm/sobel.h"
 
 namespace pomona {
+namespace {
 
-void finishRow(const WinnerRow& w, int y, const MatchOptions& o, const SgmKernels& kernels, MatchMaps& out) {
-  const int width = out.disparity.width();
-  const auto refine = kernels.refine[static_cast<int>(o.winner.subpixel)];
-  refine({width, o.disparities, o.min_disparity, w.index, w.best, w.below, w.above, out.disparity.row(y)});
-  refine({width, o.disparities, o.min_disparity, w.right_index, w.right_best, w.right_below, w.right_above,
-          out.right_disparity.row(y)});
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
-  kernels.score({width, w.best, w.below, w.above, w.second, out.margin(y), out.curvature(y)});
+}  // namespace
 
-  constexpr auto kMeasured = static_cast<std::uint8_t>(PixelState::kMeasured);
+PartnerColumns PartnerColumns::of(int width, int min_disparity, int disparities) {
+  const int left = std::max(0, min_disparity), right = std::max(0, 1 - min_disparity - disparities);
+  return {left, right, width - left - right};
+}
+
+void finishRow(const WinnerRow& w, int y, const PartnerColumns& columns, const MatchOptions& o,
+               const SgmKernels& kernels, MatchMaps& out) {
+  const int left = columns.left, width = columns.width, all = out.disparity.width();
+  float *disparity = out.disparity.row(y), *right_disparity = out.right_disparity.row(y);
+  std::uint16_t *margin = out.margin(y), *curvature = out.curvature(y);
   std::uint8_t* state = out.state.row(y);
-  std::fill_n(state, width, kMeasured);
+  const auto leaveOut = [&](int begin, int end) {
+    std::fill(disparity + begin, disparity + end, kNan);
+    std::fill(margin + begin, margin + end, std::uint16_t{0});
+    std::fill(curvature + begin, curvature + end, std::uint16_t{0});
+    std::fill(state + begin, state + end, static_cast<std::uint8_t>(PixelState::kOutOfRange));
+  };
+  leaveOut(0, left);
+  leaveOut(left + width, all);
+  std::fill(right_disparity, right_disparity + columns.right, kNan);
+  std::fill(right_disparity + columns.right + width, right_disparity + all, kNan);
+
+  const auto refine = kernels.refine[static_cast<int>(o.winner.subpixel)];
+  refine({width, o.disparities, o.min_disparity, w.index, w.best, w.below, w.above, disparity + left});
+  refine({width, o.disparities, o.min_disparity, w.right_index, w.right_best, w.right_below, w.right_above,
+          right_disparity + columns.right});
+  kernels.score({width, w.best, w.below, w.above, w.second, margin + left, curvature + left});
+
+  std::fill_n(state + left, width, static_cast<std::uint8_t>(PixelState::kMeasured));
   if (o.winner.uniqueness_percent == 0) return;
   const int keep_percent = 100 - o.winner.uniqueness_percent;
   for (int x = 0; x < width; ++x)
     if (100 * w.best[x] > keep_percent * w.second[x])
-      state[x] = static_cast<std::uint8_t>(PixelState::kAmbiguous);
+      state[left + x] = static_cast<std::uint8_t>(PixelState::kAmbiguous);
 }
 
 namespace {
@@ -78,7 +101,8 @@ void SgmMatcher::findWinners(const MatchInput& pair, const MatchOptions& options
   const ColorSteps steps(pair.guide, kernels);
   cost_.prepareSupport(steps, options.cost.support_color_step, scratch, threads);
   if (!pair.prior.empty())
-    cost_.preparePrior(pair.prior, options.prior_weight, options.prior_reach_px, scratch, threads);
+    cost_.preparePrior(pair.prior, options.prior_shift_px, options.prior_weight, options.prior_reach_px,
+                       scratch, threads);
   aggregate(cost_, steps, options.aggregation, options.memory, kernels, sink, scratch, threads);
 }
 
@@ -86,7 +110,10 @@ void SgmMatcher::match(const MatchInput& pair, const MatchOptions& options,
                        std::span<const std::uint8_t> table, const SgmKernels& kernels, MatchMaps& out,
                        Arena& scratch, int threads) {
   out.resize(pair.left.width, pair.left.height);
-  const auto finish = [&](int y, const WinnerRow& winners) { finishRow(winners, y, options, kernels, out); };
+  const PartnerColumns all{0, 0, pair.left.width};
+  const auto finish = [&](int y, const WinnerRow& winners) {
+    finishRow(winners, y, all, options, kernels, out);
+  };
   findWinners(pair, options, table, kernels, finish, scratch, threads);
 }
 

@@ -32,13 +32,25 @@ struct MatchOptions {
   // See MatchingCostRows::preparePrior; used with MatchInput::prior.
   int prior_weight = 0;
   int prior_reach_px = 0;
+  int prior_shift_px = 0;  ///< what disparities of the prior are larger by, for views that lack columns
+};
+
+/// The columns of either view that have a partner in the other at some disparity of a range: `width` of them,
+/// in the left view from `left` on, in the right view from `right` on.
+struct PartnerColumns {
+  int left, right, width;
+
+  /// `width`: of the views; the range leads from some column of one to some of the other.
+  static PartnerColumns of(int width, int min_disparity, int disparities);
+  /// By how much disparities are smaller in views of these columns alone.
+  int shiftPx() const { return left - right; }
 };
 
 /// Unvalidated disparities, pixels, of the image's size.
 struct MatchMaps {
-  Image<float> disparity;        ///< of the left view; never NaN
+  Image<float> disparity;        ///< of the left view; NaN where it is out of range
   Image<float> right_disparity;  ///< of the right view; NaN where no left pixel maps to
-  Image<std::uint8_t> state;     ///< PixelState: measured, or ambiguous where uniqueness fails
+  Image<std::uint8_t> state;     ///< PixelState: measured, ambiguous where uniqueness fails, or out of range
   /// Rows of what tells how clearly the winner won, of the path sums S: the lowest more than one disparity
   /// away less S(d), large if there is none;
   std::uint16_t* margin(int y) { return scores.row(y); }
@@ -52,9 +64,10 @@ struct MatchMaps {
   void resize(int width, int height);
 };
 
-/// Row y of the maps, which have their size, from its winners.
-void finishRow(const WinnerRow& winners, int y, const MatchOptions& options, const SgmKernels& kernels,
-               MatchMaps& out);
+/// Row y of the maps, which have their size, from the winners of `columns` of it, whose disparities begin
+/// with options.min_disparity. All other pixels are out of range.
+void finishRow(const WinnerRow& winners, int y, const PartnerColumns& columns, const MatchOptions& options,
+               const SgmKernels& kernels, MatchMaps& out);
 
 class SgmMatcher {
  public:

@@ -68,8 +68,9 @@ void SweepPlan::makeWinnerTables(Arena& arena) {
   for (int d = -1; d <= positions; ++d) position_[d + 1] = at(std::clamp(d, 0, last));
   labels_ = arena.take<std::uint16_t>(lanes);
   padding_ = arena.take<std::uint16_t>(lanes);
+  const int shared = sharedBits(lanes, labelBits());
   for (int d = 0; d < lanes; ++d) {
-    labels_[at(d)] = d <= last ? static_cast<std::uint16_t>(d) : kNoIndex;
+    labels_[at(d)] = d <= last ? static_cast<std::uint16_t>(d >> shared) : kNoIndex;
     padding_[at(d)] = d <= last ? 0 : 0xFFFF;
   }
 
@@ -125,6 +126,7 @@ WinnerRow SweepPlan::winners() const {
   row.index_mask = winnerIndexMask(range.disparities);
   row.labels = labels_;
   row.label_bits = labelBits();
+  row.shared_bits = sharedBits(range.lanes(), row.label_bits);
   row.near = near_;
   row.padded = range.disparities < range.lanes();
   row.padding = padding_;

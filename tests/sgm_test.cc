@@ -243,6 +243,21 @@ TEST(Sgm, EqualsTextbookWhereSumsAndIndicesShareAWord) {
                                              content});
 }
 
+TEST(Sgm, EqualsTextbookWhereIndicesShareALabel) {
+  // Two disparities for each label of seven bits, up to four for one of six; five to eight vectors of AVX2.
+  for (int p2 : {39, 40})
+    for (int disparities : {129, 190, 224, 256})
+      for (int min_disparity : {-5, 9})
+        for (Content content : {Content::kConstant, Content::kNoise, Content::kShifted})
+          compareWithTextbook<std::uint8_t>({270,
+                                             4,
+                                             disparities,
+                                             min_disparity,
+                                             MatchingCost::kCensus5x5,
+                                             {8, 5, p2, 10, PenaltyAdaptation::kSoftIntensity},
+                                             content});
+}
+
 TEST(Sgm, EqualsTextbookForThinImages) {
   for (int height : {1, 2, 3})
     for (int width : {1, 5, 40})
@@ -362,7 +377,7 @@ TEST(Sgm, PriorAddsItsRampToTheCost) {
     MatchingCostRows cost;
     cost.startCensus({&left, {}, {}}, 24, makeRange(from, disparities, kernels), kernels, arena);
     cost.setRight({&right, {}, {}}, 2);
-    cost.preparePrior(map.view(), weight, reach, arena, 2);
+    cost.preparePrior(map.view(), 0, weight, reach, arena, 2);
     aggregateBoth(cost, steps, kSoft, kernels, 2, [&](const WinnerMaps& got, const char* memory) {
       expectEqual(got, want, "prior, isa " + std::string(name(isa)) + memory);
     });

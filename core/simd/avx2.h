@@ -11,7 +11,7 @@ namespace simd {
 using U8 = __m256i;   // 32 unsigned bytes
 using U16 = __m256i;  // 16 unsigned 16-bit words
 constexpr int kBytes = 32;
-constexpr int kUnrolledVectors = 4;
+constexpr int kUnrolledVectors = 8;
 
 #define POMONA_OP inline __attribute__((always_inline))
 

@@ -13,7 +13,7 @@ cv::Mat ripeMask(const cv::Mat& bgr) {
   cv::Mat hsv, ripe;
   cv::cvtColor(bgr, hsv, cv::COLOR_RGB2HSV);
   cv::inRange(hsv, cv::Scalar(90, 120, 50), cv::Scalar(128, 255, 255), ripe);
-  cv::morphologyEx(ripe, ripe, cv::MORPH_OPEN, cv::getStructuringElement(cv::MORPH_ELLIPSE, {5, 5}));
+  cv::morphologyEx(ripe, ripe, cv::MORPH_OPEN, cv::getStructuringElement(cv::MORPH_ELLIPSE, {3, 3}));
   return ripe;
 }
 
@@ -25,7 +25,7 @@ struct Disc {
 
 // The largest discs inside of the mask whose centres lie in none of the others.
 std::vector<Disc> discsIn(const cv::Mat& mask) {
-  constexpr float kSmallest_px = 4;
+  constexpr float kSmallest_px = 2;
   cv::Mat inside_px, largest_px, peaks;
   cv::distanceTransform(mask, inside_px, cv::DIST_L2, cv::DIST_MASK_5);
   cv::dilate(inside_px, largest_px, cv::Mat::ones(5, 5, CV_8U));
@@ -69,11 +69,14 @@ std::vector<Contour> cut(const Contour& piece) {
 
 }  // namespace
 
+// Found at half the size, where it takes a third of the time and still tells where fruits touch.
 std::vector<Contour> ripeOutlines(const cv::Mat& bgr) {
-  constexpr double kSmallest_px2 = 100;
+  constexpr double kSmallest_px2 = 25;
+  cv::Mat half;
+  cv::resize(bgr, half, {}, 0.5, 0.5, cv::INTER_AREA);
   const auto isSmall = [](const Contour& contour) { return cv::contourArea(contour) < kSmallest_px2; };
   std::vector<Contour> pieces, outlines;
-  cv::findContours(ripeMask(bgr), pieces, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+  cv::findContours(ripeMask(half), pieces, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
   std::erase_if(pieces, isSmall);
   std::vector<std::vector<Contour>> parts(pieces.size());
   cv::parallel_for_(cv::Range(0, static_cast<int>(pieces.size())), [&](const cv::Range& range) {
@@ -81,5 +84,7 @@ std::vector<Contour> ripeOutlines(const cv::Mat& bgr) {
   });
   for (const std::vector<Contour>& of_piece : parts)
     std::copy_if(of_piece.begin(), of_piece.end(), std::back_inserter(outlines), std::not_fn(isSmall));
+  for (Contour& outline : outlines)
+    for (cv::Point& p : outline) p *= 2;
   return outlines;
 }

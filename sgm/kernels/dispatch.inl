@@ -26,6 +26,18 @@ inline __attribute__((always_inline)) void withVectors(int vectors, F f) {
         return f(Constant<4>{});
     }
   }
+  if constexpr (simd::kUnrolledVectors >= 8) {
+    switch (vectors) {
+      case 5:
+        return f(Constant<5>{});
+      case 6:
+        return f(Constant<6>{});
+      case 7:
+        return f(Constant<7>{});
+      case 8:
+        return f(Constant<8>{});
+    }
+  }
   f(Constant<0>{});
 #endif
 }

@@ -8,9 +8,9 @@ namespace {
 
 using pomona::WinnerRow;
 
-/// kLabelBits > 0: sums are small enough to share a word with the disparity index, sum << kLabelBits | index.
-/// One minimum then finds both, and the lowest index wins a tie by itself. 0: indices have words of their
-/// own.
+/// kLabelBits > 0: sums are small enough to share a word with a label of the disparity index, sum <<
+/// kLabelBits | index >> shared bits. One minimum then finds both, and the lowest label wins a tie by itself;
+/// of the disparities that share it, the first whose word is the minimum. 0: indices have words of their own.
 template <int kVectors, int kLabelBits>
 class Winner {
  public:
@@ -61,8 +61,10 @@ class Winner {
       if constexpr (!kPacked) advance(right_label_);
     }
     if constexpr (kPacked) {
-      unpackIndex(row_.best, row_.index);
-      unpackIndex(row_.right_best, row_.right_index);
+      if (sharedBits() == 0) {
+        unpackIndex(row_.best, row_.index);
+        unpackIndex(row_.right_best, row_.right_index);
+      }
       std::uint16_t* const packed[] = {row_.best,       row_.below,       row_.above,      row_.second,
                                        row_.right_best, row_.right_below, row_.right_above};
       for (std::uint16_t* sums : packed) unpackSums(sums);
@@ -79,6 +81,9 @@ class Winner {
 
   std::uint16_t* bestBorder(int k) const { return row_.right_border + k * kWords; }
   std::uint16_t* labelBorder(int k) const { return bestBorder(wordVectors() + k); }
+  POMONA_OP int sharedBits() const {
+    return kVectors ? pomona::sharedBits(kVectors * simd::kBytes, kLabelBits) : row_.shared_bits;
+  }
   POMONA_OP int wordVectors() const { return 2 * (kVectors ? kVectors : vectors_); }
   POMONA_OP void copy(const simd::U16* from, simd::U16* to) const {
     for (int k = 0; k < wordVectors(); ++k) to[k] = from[k];
@@ -91,11 +96,22 @@ class Winner {
   // pixel x adds its own, then the right pixel of disparity index 0 is complete and every lane moves on by
   // one disparity.
 
+  /// The index whose word is `best`, given the word of every index that may share its label.
+  template <typename WordAt>
+  POMONA_OP int indexOf(std::uint16_t best, WordAt wordAt) const {
+    int index = (best & kLabelMask) << sharedBits();
+    for (int i = 1, is_later = 1; i < 1 << sharedBits(); ++i) {
+      is_later &= wordAt(index) != best;
+      index += is_later;
+    }
+    return index;
+  }
+
   POMONA_OP void choosePacked(const WinnerRow& row, int x, const std::uint16_t* sums, simd::U16* right_best) {
     simd::U16 smallest = simd::load16(sums);
     for (int k = 1; k < wordVectors(); ++k) smallest = simd::min16(smallest, simd::load16(sums + k * kWords));
     const std::uint16_t best = simd::smallest16(smallest);
-    const int index = best & kLabelMask;
+    const int index = indexOf(best, [&](int d) { return sums[row.position[d]]; });
     const std::uint16_t* near = row.near + static_cast<std::ptrdiff_t>(index) * (wordVectors() * kWords);
     simd::U16 second = simd::broadcast16(kNone);
     for (int k = 0; k < wordVectors(); ++k) {
@@ -103,6 +119,7 @@ class Winner {
       second = simd::min16(second, simd::or16(s, simd::load16(near + k * kWords)));
       right_best[k] = simd::min16(right_best[k], s);
     }
+    if (sharedBits() > 0) row.index[x] = static_cast<std::uint16_t>(index);
     row.best[x] = best;
     row.below[x] = sums[row.position[index - 1]];
     row.above[x] = sums[row.position[index + 1]];
@@ -161,12 +178,16 @@ class Winner {
   POMONA_OP void emitRight(const WinnerRow& row, int x, const simd::U16* right_best,
                            const simd::U16* right_label) const {
     const std::uint16_t best = simd::first16(right_best[0]);
-    const int index = kPacked ? best & kLabelMask : simd::first16(right_label[0]) & row.index_mask;
+    const auto wordAt = [&](int d) { return x + d < 0 ? kNone : sumsOf(row, x + d)[row.position[d]]; };
+    const int index = kPacked ? indexOf(best, wordAt) : simd::first16(right_label[0]) & row.index_mask;
     const int q = x - row.min_disparity;
     row.right_best[q] = best;
     row.right_below[q] = sumsOf(row, x + index - 1)[row.position[index - 1]];
     row.right_above[q] = sumsOf(row, x + index + 1)[row.position[index + 1]];
-    if constexpr (!kPacked) row.right_index[q] = simd::first16(right_label[0]);
+    if constexpr (!kPacked)
+      row.right_index[q] = simd::first16(right_label[0]);
+    else if (sharedBits() > 0)
+      row.right_index[q] = best == kNone ? pomona::kNoIndex : static_cast<std::uint16_t>(index);
   }
 
   POMONA_OP void advance(simd::U16* v) const {
