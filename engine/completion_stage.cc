@@ -23,7 +23,7 @@ struct Limits {
         high(static_cast<float>(match.min_disparity + match.disparities - 1)) {}
 };
 
-/// Filling and smoothing may overshoot.
+/// Coarse maps and fitted planes may overshoot.
 void clampTo(Limits limits, Image<float>& disparity, int threads) {
   parallelStrips(threads, disparity.height(), 32, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
@@ -40,11 +40,11 @@ void CompletionStage::run(const MatchInput& pair, const SparseStage::Settings& s
                           const CompletionOptions& options, MatchMaps& maps, StageClock& clock) {
   if (options.method == CompletionMethod::kPaper) {
     takeCoarse(pair, settings, options, maps);
+    clampTo(Limits(settings.match), maps.disparity, settings.threads);
     clock.lap("coarse maps");
   } else {
     fillHolesOf(pair, settings, options, maps, clock);
   }
-  clampTo(Limits(settings.match), maps.disparity, settings.threads);
 }
 
 /// The paper's dense map: every pixel from the coarse scales.
@@ -78,11 +78,16 @@ void CompletionStage::fillHolesOf(const MatchInput& pair, const SparseStage::Set
                     .right = pair.right,
                     .right_disparity = maps.right_disparity.view(),
                     .scale = options.segment_scale,
+                    .fine = options.fine_segments,
                     .min_disparity = limits.low,
                     .max_disparity = limits.high},
                    maps.disparity.view(), maps.state.view(), *settings.scratch, kernels, settings.threads);
   clock.lap("segment planes");
-  const auto coarse_map = [&] { return coarse_.run(pair, settings, options); };
+  bool may_overshoot = options.plane_refinement;
+  const auto coarse_map = [&] {
+    may_overshoot = true;
+    return coarse_.run(pair, settings, options);
+  };
   fillHoles({.guide = pair.guide,
              .right_disparity = maps.right_disparity.view(),
              .coarse = coarse_map,
@@ -92,6 +97,7 @@ void CompletionStage::fillHolesOf(const MatchInput& pair, const SparseStage::Set
   clock.lap("hole filling");
   refine(maps.disparity.view(), pair.guide, options, filterKernels(settings.isa), *settings.scratch,
          settings.threads, clock);
+  if (may_overshoot) clampTo(limits, maps.disparity, settings.threads);
 }
 
 }  // namespace pomona

@@ -97,6 +97,7 @@ void Options::validate() const {
   requireRange("completion.seed_speckle_size_px", completion.seed_speckle_size_px, 0, 1 << 30);
   requireOneOf("completion.segment_scale", completion.segment_scale, {1, 2, 4});
   requireRange("completion.search_radius_px", completion.search_radius_px, 1, 1 << 20);
+  requireOneOf("completion.median_size", completion.median_size, {0, 3, 5});
   requireOneOf("completion.refine_radius_px", completion.refine_radius_px, {2, 3});
   requireRange("completion.sigma_space_px", completion.sigma_space_px, 0.1, 100);
   requireRange("completion.sigma_range", completion.sigma_range, 0.1, 1000);
@@ -114,6 +115,9 @@ Options Options::preset(std::string_view name) {
     // A plain census leaves too few seeds to be strict about them.
     o.completion.seed_left_right_px = 1.0f;
     o.completion.seed_speckle_size_px = 50;
+    o.completion.fine_segments = false;
+    o.completion.weighted_median = false;
+    o.completion.plane_refinement = false;
     return o;
   }
   if (name == "quality") {

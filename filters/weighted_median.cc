@@ -53,7 +53,7 @@ void weightedMedian(ImageView<const float> in, GuideView guide, ImageView<float>
     for (int y = y_begin; y < y_end; ++y) {
       const GuidedRow row = plane.row(y);
       std::uint8_t* near_jump = jumps.row(y);
-      std::copy_n(row.disparity, width, out.row(y));
+      if (out.data != in.data) std::copy_n(row.disparity, width, out.row(y));
       kernels.nearJumps(row, width, kJump_px, near_jump);
       std::int32_t columns[kSegment];
       for (int x = 0; x < width; x += kSegment) {

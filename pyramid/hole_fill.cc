@@ -45,10 +45,8 @@ std::uint8_t filledState(std::uint8_t state) {
 class HoleFiller {
  public:
   HoleFiller(const HoleFillInput& in, ImageView<float> disparity, ImageView<std::uint8_t> state,
-             const HoleRays& rays, ImageView<std::uint32_t> colors, Arena& arena,
-             const PyramidKernels& kernels, int threads)
-      : in_(in), disparity_(disparity), state_(state), rays_(rays), colors_(colors), kernels_(kernels) {
-    packGuide(threads);
+             const HoleRays& rays, Arena& arena, const PyramidKernels& kernels)
+      : in_(in), disparity_(disparity), state_(state), rays_(rays), kernels_(kernels) {
     tabulateWeights(arena);
   }
 
@@ -58,18 +56,16 @@ class HoleFiller {
   bool fillBatch(int batch) {
     const int first = batch * kHoleBatch, n = std::min(kHoleBatch, rays_.count() - first);
     std::int32_t x[kHoleBatch], y[kHoleBatch];
-    std::uint32_t color[kHoleBatch];
     for (int i = 0; i < n; ++i) {
       const HoleRays::Pixel p = rays_.holes()[first + i];
       x[i] = p.x;
       y[i] = p.y;
-      color[i] = colors_.at(p.y, p.x);
     }
     float candidates[kRays.size() * kHoleBatch], chosen[kHoleBatch];
     std::uint32_t weights[kRays.size() * kHoleBatch];
     for (std::size_t k = 0; k < kRays.size(); ++k) {
       const std::size_t plane = k * static_cast<std::size_t>(n);
-      kernels_.gatherCandidates(sources_[k], x, y, color, rays_.steps(k) + first, n, candidates + plane,
+      kernels_.gatherCandidates(sources_[k], x, y, rays_.steps(k) + first, n, candidates + plane,
                                 weights + plane);
     }
     kernels_.candidateMedian(candidates, weights, n, chosen);
@@ -91,38 +87,28 @@ class HoleFiller {
   }
 
  private:
-  void packGuide(int threads) {
-    parallelStrips(threads, in_.guide.height, kMinLinesPerStrip, [&](int begin, int end) {
-      for (int y = begin; y < end; ++y)
-        kernels_.packColors(in_.guide.row(y), in_.guide.channels, in_.guide.width, colors_.row(y));
-    });
-  }
-
   void tabulateWeights(Arena& arena) {
     const int channels = in_.guide.channels;
     std::uint32_t* const color_weight = arena.take<std::uint32_t>(3 * 255 + 1);
     for (int i = 0; i <= 3 * 255; ++i) color_weight[i] = integerWeight(i / (channels * kColorScale));
     const int longest = std::max(disparity_.width, disparity_.height);  // in steps
-    std::uint32_t* const distance_weight =
-        arena.take<std::uint32_t>(kRays.size() * static_cast<std::size_t>(longest));
-    for (std::size_t k = 0; k < kRays.size(); ++k) {
-      std::uint32_t* table = distance_weight + k * static_cast<std::size_t>(longest);
-      const double step_px = std::sqrt(static_cast<double>(kRays[k].squaredStep()));
-      for (int i = 0; i < longest && i <= in_.search_radius_px; ++i)
-        table[i] = integerWeight(i * step_px / kDistanceScale_px);
+    std::uint32_t* const distance_weight = arena.take<std::uint32_t>(static_cast<std::size_t>(longest));
+    for (int i = 0; i < longest && i <= in_.search_radius_px; ++i)
+      distance_weight[i] = integerWeight(i / kDistanceScale_px);
+    for (std::size_t k = 0; k < kRays.size(); ++k)
       sources_[k] = {.disparity = disparity_.data,
                      .disparity_stride = static_cast<std::int32_t>(disparity_.stride),
                      .right_disparity = in_.right_disparity.data,
                      .right_stride = static_cast<std::int32_t>(in_.right_disparity.stride),
-                     .color = colors_.data,
-                     .color_stride = static_cast<std::int32_t>(colors_.stride),
+                     .guide = in_.guide.data,
+                     .guide_stride = static_cast<std::int32_t>(in_.guide.stride),
+                     .channels = in_.guide.channels,
                      .width = disparity_.width,
                      .visibility_tolerance_px = kVisibilityTolerance_px,
                      .color_weight = color_weight,
-                     .distance_weight = table,
+                     .distance_weight = distance_weight,
                      .dx = kRays[k].dx,
                      .dy = kRays[k].dy};
-    }
   }
 
   // Where every candidate is impossible: the background of the row, or of all directions. NaN without any.
@@ -152,7 +138,6 @@ class HoleFiller {
   ImageView<float> disparity_;
   ImageView<std::uint8_t> state_;
   const HoleRays& rays_;
-  ImageView<std::uint32_t> colors_;
   const PyramidKernels& kernels_;
   std::array<CandidateSources, kRays.size()> sources_;
 };
@@ -220,13 +205,11 @@ void fillDistant(ImageView<float> disparity, ImageView<std::uint8_t> state, floa
 void fillHoles(const HoleFillInput& in, ImageView<float> disparity, ImageView<std::uint8_t> state,
                Arena& scratch, const PyramidKernels& kernels, int threads) {
   const Arena::Scope scope(scratch);
-  // Before the rays, whose room for all there could be is hardly touched.
-  const auto colors = scratch.image<std::uint32_t>(in.guide.width, in.guide.height);
   HoleRays rays;
-  rays.findHoles(disparity, state, scratch, threads);
+  rays.findHoles(disparity, state, scratch, kernels, threads);
   if (rays.count() == 0) return;
   rays.follow(in.search_radius_px, kernels, threads);
-  HoleFiller filler(in, disparity, state, rays, colors, scratch, kernels, threads);
+  HoleFiller filler(in, disparity, state, rays, scratch, kernels);
   const auto all = [&](int count, int min_per_strip, auto&& fill) {
     std::atomic<bool> complete{true};
     parallelStrips(threads, count, min_per_strip, [&](int begin, int end) {

@@ -24,9 +24,9 @@ struct HoleFillInput {
 /// Gives every pixel that is not measured, filled or kMasked a disparity and a filled state, in place.
 ///
 /// Sources are the measured pixels (state kMeasured, disparity not NaN) and those of state kFilledPlane;
-/// they, other filled and masked pixels stay as they are. From a hole p = (x, y), 16 rays (steps (+-1,0)
-/// (0,+-1) (+-1,+-1) (+-2,+-1) (+-1,+-2)) run, across masked pixels too, to their first source within the
-/// search radius. Its disparity e is a candidate of weight
+/// they, other filled and masked pixels stay as they are. From a hole p = (x, y), 4 rays, to the left and
+/// right, up and down, run, across masked pixels too, to their first source within the search radius. Its
+/// disparity e is a candidate of weight
 ///     exp(-|I(p) - I(source)| / 12 - length / 30)
 /// with |.| the mean over channels in 8-bit units, and the length in pixels. A candidate is impossible, and
 /// dropped, if the right view sees something at x - e (nearest pixel, inside the image) that is farther than

@@ -1,4 +1,4 @@
-// The holes of a disparity map, and the nearest source in each of sixteen directions around every hole.
+// The holes of a disparity map, and the nearest source to the left and right of, above and below every hole.
 #pragma once
 
 #include <array>
@@ -12,25 +12,9 @@ namespace pomona {
 
 struct Ray {
   int dx, dy;
-  constexpr int squaredStep() const { return dx * dx + dy * dy; }  // 1, 2 or 5
 };
 /// The two along the row come first.
-inline constexpr std::array<Ray, 16> kRays = {{{-1, 0},
-                                               {1, 0},
-                                               {0, -1},
-                                               {0, 1},
-                                               {-1, -1},
-                                               {1, -1},
-                                               {-1, 1},
-                                               {1, 1},
-                                               {-2, -1},
-                                               {2, -1},
-                                               {-2, 1},
-                                               {2, 1},
-                                               {-1, -2},
-                                               {1, -2},
-                                               {-1, 2},
-                                               {1, 2}}};
+inline constexpr std::array<Ray, kHoleRays> kRays = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
 
 class HoleRays {
  public:
@@ -43,11 +27,10 @@ class HoleRays {
   /// Sources are the other measured pixels, and those of state kFilledPlane. Everything lies in the current
   /// scope of `arena`, to which the following calls add nothing.
   void findHoles(ImageView<const float> disparity, ImageView<const std::uint8_t> state, Arena& arena,
-                 int threads);
+                 const PyramidKernels& kernels, int threads);
 
-  /// Follows all rays from all holes found, up to the longest number of steps within `radius_px`.
-  /// Works one step per row and ray over the whole image, so its time does not depend on how large the holes
-  /// are.
+  /// Follows all rays from all holes found, for up to `radius_px` steps. Each hole goes on from its neighbour
+  /// on the ray, so the time does not depend on how large the holes are.
   void follow(int radius_px, const PyramidKernels& kernels, int threads);
 
   int count() const { return count_; }
@@ -58,14 +41,15 @@ class HoleRays {
   }
 
  private:
-  void followRay(std::size_t index, int radius_px, const PyramidKernels& kernels);
+  void followRow(std::size_t ray, int y, int radius_px);
+  void followColumns(std::size_t ray, int radius_px, const PyramidKernels& kernels);
 
   int count_ = 0;
   int* row_begin_ = nullptr;            // index of each row's first hole
   Pixel* holes_ = nullptr;              // room for all pixels
   std::uint16_t* steps_ = nullptr;      // one plane of count_ values per ray
   ImageView<std::uint16_t> open_;       // 0 at sources, 0xffff elsewhere
-  ImageView<std::uint16_t> ring_rows_;  // the last three rows of every ray's sweep
+  ImageView<std::uint16_t> distances_;  // of a row's pixels to the source above, and to that below
 };
 
 }  // namespace pomona

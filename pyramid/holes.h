@@ -16,8 +16,8 @@ inline bool isSource(float disparity, std::uint8_t state) {
 
 /// A pixel to be filled: missing but not masked, or measured but NaN.
 inline bool isHole(float disparity, std::uint8_t state) {
-  const PixelState s = static_cast<PixelState>(state);
-  return isMeasured(s) ? std::isnan(disparity) : isMissing(s) && s != PixelState::kMasked;
+  const PixelState s = static_cast<PixelState>(state);  // without branches: who is a hole is hard to predict
+  return (isMeasured(s) & std::isnan(disparity)) | (isMissing(s) & (s != PixelState::kMasked));
 }
 
 /// How much farther than a surface something must be to count as hidden by it.

@@ -10,8 +10,15 @@ namespace pomona {
 
 enum class Isa;
 
+/// Directions in which a hole looks for what may fill it.
+constexpr int kHoleRays = 4;
 /// Most holes that one call of a kernel takes.
 constexpr int kHoleBatch = 64;
+
+/// Values of the state, see findHoles.
+struct HoleStates {
+  std::uint8_t measured, plane, missing, masked;
+};
 
 /// What the candidates of one ray are read from. Strides count elements; stride * height must be below 2^31.
 struct CandidateSources {
@@ -19,13 +26,35 @@ struct CandidateSources {
   std::int32_t disparity_stride;
   const float* right_disparity;
   std::int32_t right_stride;
-  const std::uint32_t* color;  ///< up to three bytes a pixel, see packColors
-  std::int32_t color_stride;
+  const std::uint8_t* guide;  ///< 1 or 3 `channels` side by side
+  std::int32_t guide_stride, channels;
   std::int32_t width;
   float visibility_tolerance_px;
   const std::uint32_t* color_weight;     ///< by the sum of absolute differences of the bytes; below 2^16
   const std::uint32_t* distance_weight;  ///< by the number of steps; below 2^16
   std::int32_t dx, dy;                   ///< the ray's step
+};
+
+/// The disparity a (x - x0) + b (y - y0) + c, kept within low and high; none if c is NaN.
+struct SegmentPlane {
+  float a = 0, b = 0, c = 0, low = 0, high = 0;
+  std::int32_t x0 = 0, y0 = 0;
+  std::int32_t unused = 0;  // planes are read as 8 words each
+};
+
+/// Most holes that one call of planeDisparities takes.
+constexpr int kPlaneBatch = 256;
+
+/// What the holes of a row are filled with, see pyramid/plane_fill.h.
+struct PlaneFillRow {
+  const SegmentPlane* planes;
+  const float* right_disparity;
+  std::int32_t width, y;
+  float min_disparity, max_disparity, visibility_tolerance_px, border_tolerance_px;
+  /// Holes left of left_x and right of right_x lie beyond the right view: at these columns, their planes must
+  /// be within the tolerance of these disparities.
+  std::int32_t left_x, right_x;
+  float beyond_left_px, beyond_right_px;
 };
 
 struct PyramidKernels {
@@ -51,8 +80,13 @@ struct PyramidKernels {
   /// inout = (inout + other) / 2
   void (*average)(const float* other, int n, float* inout);
 
-  /// One step along a ray: out = open & saturating(previous + 1); `open` is 0 at a source, else 0xffff.
-  void (*advanceRays)(const std::uint16_t* previous, const std::uint16_t* open, int n, std::uint16_t* out);
+  /// open[x] = 0 for sources: of state `measured` with a disparity that is not NaN, or of state `plane`; else
+  /// 0xffff. is_hole[x] = 1 if pixel x is `measured` but NaN, or at least `missing` but not `masked`; else 0.
+  /// Returns how many holes there are.
+  int (*findHoles)(const float* disparity, const std::uint8_t* state, HoleStates states, int n,
+                   std::uint16_t* open, std::uint8_t* is_hole);
+  /// One step along a ray: steps = open & saturating(steps + 1); `open` as above.
+  void (*advanceRays)(const std::uint16_t* open, int n, std::uint16_t* steps);
 
   /// out[i] = |a[i] - b[i]|
   void (*difference1)(const std::uint8_t* a, const std::uint8_t* b, int n, std::uint8_t* out);
@@ -66,6 +100,11 @@ struct PyramidKernels {
   int (*countNearPlane)(const float* x, const float* y, const float* d, int n, float a, float b, float c,
                         float tolerance);
 
+  /// out[i] = the disparity of planes[segment[i]] at column x[i], NaN if it may not be there; n <=
+  /// kPlaneBatch. The arrays have room for kPlaneBatch values, all of them valid places.
+  void (*planeDisparities)(const PlaneFillRow& row, const std::int32_t* x, const std::int32_t* segment, int n,
+                           float* out);
+
   /// out[x] = 25 rows[2][x] less the sum of the 5 x 5 pixels around it, columns beyond the ends being the
   /// last ones; 0 if that is beyond +- limit, which is at most 127.
   void (*localResidual)(const std::uint8_t* const rows[5], int n, int limit, std::int8_t* out);
@@ -74,18 +113,15 @@ struct PyramidKernels {
   void (*correlate)(const std::int8_t* left, const std::int8_t* right, int n, int places,
                     std::int32_t* products, std::int32_t* squares);
 
-  /// out[i] = the bytes of pixel i, the first in the lowest place
-  void (*packColors)(const std::uint8_t* in, int channels, int n, std::uint32_t* out);
-
-  /// The candidate (disparity, weight) that a ray gives each of n <= kHoleBatch holes at (x, y) of colour
-  /// `here`, see fillHoles(). `steps` is 0xffff where the ray meets no source; that, and an impossible
+  /// The candidate (disparity, weight) that a ray gives each of n <= kHoleBatch holes at (x, y), see
+  /// fillHoles(). `steps` is 0xffff where the ray meets no source; that, and an impossible
   /// candidate, gives (+infinity, 0).
   void (*gatherCandidates)(const CandidateSources& sources, const std::int32_t* x, const std::int32_t* y,
-                           const std::uint32_t* here, const std::uint16_t* steps, int n, float* disparity,
-                           std::uint32_t* weight);
+                           const std::uint16_t* steps, int n, float* disparity, std::uint32_t* weight);
 
-  /// For each of n <= kHoleBatch holes the smallest of its 16 disparities (plane k at k n) that has, together
-  /// with the smaller ones, at least half of all weight, whose sum must fit 32 bits; +infinity without any.
+  /// For each of n <= kHoleBatch holes the smallest of its kHoleRays disparities (plane k at k n) that has,
+  /// together with the smaller ones, at least half of all weight, whose sum must fit 32 bits; +infinity
+  /// without any.
   void (*candidateMedian)(const float* disparity, const std::uint32_t* weight, int n, float* out);
 };
 

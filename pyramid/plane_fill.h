@@ -15,6 +15,7 @@ struct PlaneFillInput {
   ImageView<const std::uint8_t> left, right;  ///< in gray; empty: no segment is matched as a whole
   ImageView<const float> right_disparity;  ///< the right view's map, d = x_left - x_right; NaN where unknown
   int scale = 4;            ///< segments are found in the image reduced so many times; 1, 2 or 4
+  bool fine = true;         ///< both divisions, or only the coarse one
   float min_disparity = 0;  ///< a plane fills with disparities from here ...
   float max_disparity = 0;  ///< ... up to and including here
 };
@@ -28,8 +29,8 @@ struct PlaneFillInput {
 /// pixels, if there are at least 24 sources, if they are at least 30 % of sources and holes together (2 % in
 /// the coarse division), and if half of them lie near the plane. Its holes take the plane's disparities, but
 /// none more than 1 px beyond those of the sources near the plane, where they are within the range and hide
-/// nothing that the right view sees. The fine division comes first; the coarse one fills what it leaves, from
-/// measured pixels again.
+/// nothing that the right view sees. The fine division comes first, unless it is left out; the coarse one
+/// fills what it leaves, from measured pixels again.
 ///
 /// Segments of which at least 30 % and 100 px are holes, and less than 30 % measured, are also matched as a
 /// whole (see segment_match.h). If one level stands out, a plane need not cover so much of the segment; but

@@ -63,7 +63,11 @@ void averageAlongRow(const std::uint32_t* sums, const AreaAxis& axis, const Area
       std::uint64_t sum =
           std::uint64_t{span.first_weight} * p[0] + inner * static_cast<std::uint64_t>(axis.out);
       if (span.count > 1) sum += std::uint64_t{span.last_weight} * p[(span.count - 1) * channels];
-      out[x * channels + c] = static_cast<T>((2 * sum + area) / (2 * area));
+      const std::uint64_t doubled = 2 * sum + area;
+      // Dividing 32 bits takes half the time of 64.
+      out[x * channels + c] = static_cast<T>(doubled <= UINT32_MAX ? static_cast<std::uint32_t>(doubled) /
+                                                                         static_cast<std::uint32_t>(2 * area)
+                                                                   : doubled / (2 * area));
     }
   }
 }

@@ -38,7 +38,7 @@ class SegmentCells {
   int height(Cell c) const { return row_begin_[c.y + 1] - row_begin_[c.y]; }
   int sources(Cell c) const { return sources_[index(c)]; }
   int holes(Cell c) const { return holes_[index(c)]; }
-  void setHoles(Cell c, int holes) { holes_[index(c)] = static_cast<std::uint8_t>(holes); }
+  void takeHole(Cell c) { --holes_[index(c)]; }
   /// Place of the pixel's cell among the labels.
   std::size_t indexOf(Pixel p) const {
     return index({static_cast<std::uint16_t>(std::int64_t{p.x} * columns_ / column_begin_[columns_]),

@@ -17,20 +17,17 @@ class ViewBorder {
     int x;
     float disparity;
   };
+  struct Ends {
+    Source left, right;  ///< without one: before the first column, behind the last
+  };
 
   /// The result lies in the current scope of `arena`.
   void find(ImageView<const float> disparity, ImageView<const std::uint8_t> state, Arena& arena, int threads);
 
-  /// The source that (x, y) lies beyond; null if there is none.
-  const Source* before(int y, int x) const {
-    const Ends& ends = ends_[y];
-    return x < ends.left.x ? &ends.left : x > ends.right.x ? &ends.right : nullptr;
-  }
+  /// Sources that pixels farther left and farther right in row y lie beyond.
+  const Ends& ends(int y) const { return ends_[y]; }
 
  private:
-  struct Ends {
-    Source left, right;  // without one: before the first column, behind the last
-  };
   Ends* ends_ = nullptr;  // of each row
 };
 

@@ -138,7 +138,7 @@ class Smoke(unittest.TestCase):
             counters = {key for of_name in runs.values() for key in of_name[0]}
             for wanted in ("stage:matching", "stage:cost and aggregation", "kernel:aggregateLast", "kernel:prior",
                            "kernel:median5x5", "kernel:jointBilateral", "kernel:weightedMedian", "kernel:cubicRow",
-                           "kernel:reduceRow", "kernel:packColors", "kernel:difference1", "bytes:blendedCost"):
+                           "kernel:reduceRow", "kernel:planeDisparities", "kernel:difference1", "bytes:blendedCost"):
                 self.assertIn(wanted, counters)
             frames = {name for name in runs if name.startswith("frame/")}
             self.assertEqual(set(result["peak_bytes"]), {*frames, f"nothing/{SIZE}"})

@@ -94,10 +94,10 @@ TEST(Engine, WholeFrameGoldenHashes) {
     return hashOf(computeDisparity(pair.left.image, pair.right.image, makeOptions(preset, 45, mode)));
   };
   EXPECT_EQ(hash("fast", OutputMode::kSparse), 5399657888779382725u);
-  EXPECT_EQ(hash("fast", OutputMode::kDense), 12444174204875565741u);
+  EXPECT_EQ(hash("fast", OutputMode::kDense), 4370170278075175335u);
   EXPECT_EQ(hash("balanced", OutputMode::kSparse), 3010555182193778058u);
-  EXPECT_EQ(hash("balanced", OutputMode::kDense), 4425957994921107792u);
-  EXPECT_EQ(hash("quality", OutputMode::kDense), 16954394627496337096u);
+  EXPECT_EQ(hash("balanced", OutputMode::kDense), 7526953149010219381u);
+  EXPECT_EQ(hash("quality", OutputMode::kDense), 12536638858723544178u);
 }
 
 TEST(Engine, AnEngineGivesTheSameFrameAfterFrameOfAnySize) {
@@ -166,6 +166,7 @@ TEST(Engine, HolesKeepTheirReasonAndFilledPixelsTheirSource) {
   seeds.validation.speckle_size_px = unrefined.completion.seed_speckle_size_px;
   const StereoResult sparse = computeDisparity(pair.left.image, pair.right.image, seeds);
   unrefined.completion.weighted_median = unrefined.completion.plane_refinement = false;
+  unrefined.completion.median_size = 0;
   const StereoResult dense = computeDisparity(pair.left.image, pair.right.image, unrefined);
   int occluded = 0, truly_occluded = 0;
   for (int y = 0; y < 200; ++y)
@@ -193,10 +194,11 @@ TEST(Engine, HolesKeepTheirReasonAndFilledPixelsTheirSource) {
 
 TEST(Engine, RefinementChangesDisparitiesAndNoState) {
   const RenderedPair pair = scene("planes", 320, 200, 40);
-  const auto refined = [&](bool weighted_median, bool planes) {
+  const auto refined = [&](bool weighted_median, int median_size, bool planes) {
     Options o = makeOptions("balanced", 48);
     o.completion.weighted_median = weighted_median;
     o.completion.plane_refinement = planes;
+    o.completion.median_size = median_size;
     return computeDisparity(pair.left.image, pair.right.image, o);
   };
   const auto error = [&](const StereoResult& r) {  // an outlier counts as one pixel
@@ -208,19 +210,20 @@ TEST(Engine, RefinementChangesDisparitiesAndNoState) {
       }
     return std::sqrt(squares / static_cast<double>(r.disparity.total()));
   };
-  const StereoResult before = refined(false, false);
-  for (bool weighted_median : {false, true})
+  const StereoResult before = refined(false, 0, false);
+  for (const auto& [weighted_median, median_size] : {std::pair(false, 0), {false, 5}, {true, 0}, {true, 5}})
     for (bool planes : {false, true}) {
-      const StereoResult after = refined(weighted_median, planes);
+      const StereoResult after = refined(weighted_median, median_size, planes);
       EXPECT_TRUE(sameBytes(after.state, before.state));
       int moved = 0;
       for (int y = 0; y < 200; ++y)
         for (int x = 0; x < 320; ++x)
           moved += std::abs(after.disparity.at<float>(y, x) - before.disparity.at<float>(y, x)) > 1;
       EXPECT_LT(moved, 0.03 * before.disparity.total());
-      EXPECT_EQ(sameBytes(after.disparity, before.disparity), !weighted_median && !planes);
+      EXPECT_EQ(sameBytes(after.disparity, before.disparity),
+                !weighted_median && median_size == 0 && !planes);
       EXPECT_LT(error(after), 1.03 * error(before));
-      if (weighted_median) {
+      if (weighted_median && median_size == 5) {
         EXPECT_LT(error(after), 0.95 * error(before));
         EXPECT_LT(score(after.disparity, pair.left.disparity).bad1_of_all,
                   score(before.disparity, pair.left.disparity).bad1_of_all);
@@ -517,6 +520,8 @@ TEST(Options, RefusesEveryValueOutOfRange) {
                 {"completion.segment_scale is 3", "1, 2, 4"});
   expectRefused(with([](Options& o) { o.completion.search_radius_px = 0; }),
                 {"completion.search_radius_px is 0"});
+  expectRefused(with([](Options& o) { o.completion.median_size = 4; }),
+                {"completion.median_size is 4", "0, 3, 5"});
   expectRefused(with([](Options& o) { o.completion.refine_radius_px = 4; }),
                 {"completion.refine_radius_px is 4", "2, 3"});
   expectRefused(with([](Options& o) { o.completion.sigma_space_px = kNan; }),

@@ -32,11 +32,11 @@ KernelTables timedTables(Isa isa) {
   TIMED(pyramid, cubicRow), TIMED(pyramid, cubicColumn);
   TIMED(pyramid, reduceRow), TIMED(pyramid, reduceColumn);
   TIMED(pyramid, expandRow), TIMED(pyramid, addExpandedColumn);
-  TIMED(pyramid, average), TIMED(pyramid, advanceRays);
+  TIMED(pyramid, average), TIMED(pyramid, findHoles), TIMED(pyramid, advanceRays);
   TIMED(pyramid, difference1), TIMED(pyramid, largestDifference3);
-  TIMED(pyramid, countSourcesAndHoles), TIMED(pyramid, countNearPlane);
+  TIMED(pyramid, countSourcesAndHoles), TIMED(pyramid, countNearPlane), TIMED(pyramid, planeDisparities);
   TIMED(pyramid, localResidual), TIMED(pyramid, correlate);
-  TIMED(pyramid, packColors), TIMED(pyramid, gatherCandidates), TIMED(pyramid, candidateMedian);
+  TIMED(pyramid, gatherCandidates), TIMED(pyramid, candidateMedian);
   TIMED(camera, interpolate8), TIMED(camera, interpolate16);
   TIMED(camera, reduceBlocks), TIMED(camera, contrast);
 #undef TIMED

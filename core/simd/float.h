@@ -78,8 +78,28 @@ inline Floats max(Floats a, Floats b) {
 }
 #endif
 
+inline Ints min(Ints a, Ints b) {
+  return a < b ? a : b;
+}
+inline Ints max(Ints a, Ints b) {
+  return a > b ? a : b;
+}
+
 inline Ints isNan(Floats v) {
   return v != v;
+}
+
+/// True if a lane of a mask is set.
+inline bool anyOf(Ints mask) {
+#if defined(__AVX512F__)
+  return _mm512_test_epi32_mask(reinterpret_cast<__m512i>(mask), reinterpret_cast<__m512i>(mask)) != 0;
+#elif defined(__AVX2__)
+  return _mm256_testz_si256(reinterpret_cast<__m256i>(mask), reinterpret_cast<__m256i>(mask)) == 0;
+#else
+  std::int32_t any = 0;
+  for (int i = 0; i < kFloatLanes; ++i) any |= mask[i];
+  return any != 0;
+#endif
 }
 
 inline bool anyNan(Floats v) {
@@ -88,10 +108,7 @@ inline bool anyNan(Floats v) {
 #elif defined(__AVX2__)
   return _mm256_movemask_ps(_mm256_cmp_ps(v, v, _CMP_UNORD_Q)) != 0;
 #else
-  const Ints nan = isNan(v);
-  std::int32_t any = 0;
-  for (int i = 0; i < kFloatLanes; ++i) any |= nan[i];
-  return any != 0;
+  return anyOf(isNan(v));
 #endif
 }
 

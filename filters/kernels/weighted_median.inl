@@ -54,40 +54,43 @@ inline void readWindow(const GuidedRow& row, const MedianWindow& window, Ints co
   }
 }
 
-/// The weights of all keys up to `bound`. Adding in one fixed order makes this sum, though rounded, a
-/// monotone function of `bound`.
-inline Floats weightUpTo(const WeightedTaps& taps, Ints bound) {
+/// The window divided by a bound: the weights of all keys up to it, the largest of these keys, and the
+/// smallest of the others.
+struct DividedTaps {
+  Floats weight;
+  Ints last, next;
+};
+
+/// Adding in one fixed order makes the weight, though rounded, a monotone function of `bound`.
+inline DividedTaps divideTaps(const WeightedTaps& taps, Ints bound) {
+  const Ints lowest = Ints{} + INT32_MIN, highest = Ints{} + INT32_MAX;
   Floats sum[kMedianGroup] = {};
+  Ints last = lowest, next = highest;
   for (int first = 0; first < kMedianSlots; first += kMedianGroup)
 #pragma GCC unroll 8
-    for (int i = 0; i < kMedianGroup; ++i)
-      sum[i] += taps.key[first + i] <= bound ? taps.weight[first + i] : Floats{};
-  Floats total = sum[0];
-  for (int i = 1; i < kMedianGroup; ++i) total += sum[i];
-  return total;
+    for (int i = 0; i < kMedianGroup; ++i) {
+      const Ints key = taps.key[first + i], is_below = key <= bound;
+      sum[i] += is_below ? taps.weight[first + i] : Floats{};
+      last = max(last, is_below ? key : lowest);
+      next = min(next, is_below ? highest : key);
+    }
+  for (int i = 1; i < kMedianGroup; ++i) sum[0] += sum[i];
+  return {sum[0], last, next};
 }
 
-/// The smallest `bits` such that 2^bits is above high - low in every lane; low <= high.
-inline int bitsToSearch(Ints low, Ints high) {
-  std::uint32_t all = 0;
-  for (int i = 0; i < kFloatLanes; ++i)
-    all |= static_cast<std::uint32_t>(high[i]) - static_cast<std::uint32_t>(low[i]);
-  return all == 0 ? 0 : 32 - __builtin_clz(all);
-}
-
-/// The smallest key up to which there is half of the weight, by bisection.
+/// The smallest key up to which there is half of the weight: by bisection, each half shrunk to the keys in
+/// it.
 inline Ints weightedMedianKey(const WeightedTaps& taps) {
-  Ints low = taps.key[0], high = low;
-  for (const Ints& key : taps.key) {
-    low = key < low ? key : low;
-    high = key > high ? key : high;
-  }
-  const Floats half = weightUpTo(taps, high) * 0.5f;
-  for (int bits = bitsToSearch(low, high); bits > 0; --bits) {
+  const DividedTaps all = divideTaps(taps, Ints{} + INT32_MAX);
+  const Floats half = all.weight * 0.5f;
+  Ints low = taps.key[0], high = all.last;
+  for (const Ints& key : taps.key) low = min(low, key);
+  while (anyOf(low != high)) {
     const Ints middle = (low & high) + ((low ^ high) >> 1);
-    const Ints enough = weightUpTo(taps, middle) >= half;
-    high = enough ? middle : high;
-    low = enough ? low : middle + 1;
+    const DividedTaps divided = divideTaps(taps, middle);
+    const Ints enough = divided.weight >= half;
+    high = enough ? divided.last : high;
+    low = enough ? low : divided.next;
   }
   return high;
 }

@@ -84,12 +84,15 @@ struct CompletionOptions {
   /// Segments are found in the image reduced so many times: 1, 2 or 4. The default is both the best and the
   /// fastest.
   int segment_scale = 4;
+  /// Smaller segments come first, those of nearly one colour; then the larger ones, which join what is alike.
+  bool fine_segments = true;
   /// A hole is filled from pixels, measured or on segment planes, at most this far away (along a search ray);
   /// farther away the coarse maps decide. At least 1.
   int search_radius_px = 200;
   /// kFillHoles: move the jumps of the dense map to the edges of the left image, by a colour-weighted median
-  /// near jumps of more than 1 px, and a 5 x 5 median of the whole map. Measured pixels change, too.
+  /// near jumps of more than 1 px. Measured pixels change, too.
   bool weighted_median = true;
+  int median_size = 5;  ///< kFillHoles: then a median of the whole map; 0 (off), 3 or 5
   /// kFillHoles: replace each disparity by a plane through the neighbours of like disparity and colour.
   bool plane_refinement = true;
   int refine_radius_px = 2;  ///< of the window of that plane: 2 or 3

@@ -3,46 +3,51 @@
 namespace pomona {
 namespace {
 
-void packColors(const std::uint8_t* in, int channels, int n, std::uint32_t* __restrict out) {
-  if (channels == 1)
-    for (int i = 0; i < n; ++i) out[i] = in[i];
-  else
-    for (int i = 0; i < n; ++i)
-      out[i] = in[3 * i] | static_cast<std::uint32_t>(in[3 * i + 1]) << 8 |
-               static_cast<std::uint32_t>(in[3 * i + 2]) << 16;
+inline int absoluteDifference(int a, int b) {
+  return a > b ? a - b : b - a;
 }
 
-inline std::int32_t byteDifference(std::uint32_t a, std::uint32_t b, int shift) {
-  const std::int32_t d =
-      static_cast<std::int32_t>(a >> shift & 255) - static_cast<std::int32_t>(b >> shift & 255);
-  return d < 0 ? -d : d;
+/// The sums over the channels between the pixels at byte offsets a[i] and b[i]. One at a time on purpose:
+/// left to itself, GCC takes vectors of offsets apart, which is slower.
+__attribute__((optimize("no-tree-vectorize"))) void colorDifferences(const std::uint8_t* guide, int channels,
+                                                                     const std::int32_t* a,
+                                                                     const std::int32_t* b, int n,
+                                                                     std::int32_t* __restrict out) {
+  for (int i = 0; i < n; ++i) {
+    const std::uint8_t *p = guide + a[i], *q = guide + b[i];
+    out[i] = absoluteDifference(p[0], q[0]);
+    if (channels == 3) out[i] += absoluteDifference(p[1], q[1]) + absoluteDifference(p[2], q[2]);
+  }
 }
 
-// One element at a time on purpose: left to itself, GCC takes vectors of indices apart, which is slower.
-template <typename T>
-__attribute__((optimize("no-tree-vectorize"))) void lookUp(const T* table, const std::int32_t* index, int n,
-                                                           T* __restrict out) {
-  for (int i = 0; i < n; ++i) out[i] = table[index[i]];
+void gatherRow(const std::uint32_t* from, const std::int32_t* index, int count,
+               std::uint32_t* __restrict out) {
+  int i = 0;
+  for (; i + kFloatLanes <= count; i += kFloatLanes)
+    store(reinterpret_cast<std::int32_t*>(out) + i, gather(from, load(index + i)));
+  for (; i < count; ++i) out[i] = from[index[i]];
 }
 
 // Masks of all ones or none (-bool) stand where a conditional would keep GCC from vectorising.
 void gatherCandidates(const CandidateSources& sources, const std::int32_t* x, const std::int32_t* y,
-                      const std::uint32_t* here, const std::uint16_t* steps, int n,
-                      float* __restrict disparity, std::uint32_t* __restrict weight) {
+                      const std::uint16_t* steps, int n, float* __restrict disparity,
+                      std::uint32_t* __restrict weight) {
   const CandidateSources s = sources;
   const float width = static_cast<float>(s.width);
-  std::int32_t index[kHoleBatch] = {}, color_index[kHoleBatch] = {}, count[kHoleBatch] = {};
+  std::int32_t index[kHoleBatch] = {}, count[kHoleBatch] = {}, here[kHoleBatch] = {}, there[kHoleBatch] = {};
   for (int i = 0; i < n; ++i) {  // a ray without a source ends at the hole itself
     count[i] = steps[i] & -static_cast<std::int32_t>(steps[i] != 0xffff);
     const std::int32_t source_x = x[i] + s.dx * count[i], source_y = y[i] + s.dy * count[i];
     index[i] = source_y * s.disparity_stride + source_x;
-    color_index[i] = source_y * s.color_stride + source_x;
+    here[i] = y[i] * s.guide_stride + x[i] * s.channels;
+    there[i] = source_y * s.guide_stride + source_x * s.channels;
   }
+  std::int32_t difference[kHoleBatch];
+  colorDifferences(s.guide, s.channels, here, there, n, difference);
   float e[kHoleBatch], seen[kHoleBatch];
-  std::uint32_t color[kHoleBatch], color_weight[kHoleBatch], distance_weight[kHoleBatch];
-  lookUp(s.disparity, index, n, e);
-  lookUp(s.color, color_index, n, color);
-  lookUp(s.distance_weight, count, n, distance_weight);
+  std::uint32_t color_weight[kHoleBatch], distance_weight[kHoleBatch];
+  gatherRow(s.disparity, index, n, e);
+  gatherRow(s.distance_weight, count, n, distance_weight);
 
   std::int32_t inside[kHoleBatch];
   for (int i = 0; i < n; ++i) {
@@ -54,11 +59,9 @@ void gatherCandidates(const CandidateSources& sources, const std::int32_t* x, co
     const std::int32_t x_right = truncated - (static_cast<float>(truncated) > clamped);
     inside[i] = -static_cast<std::int32_t>((x_right >= 0) & (x_right < s.width));
     index[i] = y[i] * s.right_stride + (x_right & inside[i]);
-    color_index[i] = byteDifference(here[i], color[i], 0) + byteDifference(here[i], color[i], 8) +
-                     byteDifference(here[i], color[i], 16);
   }
-  lookUp(s.right_disparity, index, n, seen);
-  lookUp(s.color_weight, color_index, n, color_weight);
+  gatherRow(s.right_disparity, index, n, seen);
+  gatherRow(s.color_weight, difference, n, color_weight);
 
   for (int i = 0; i < n; ++i) {
     const bool contradicted = (inside[i] != 0) & (seen[i] < e[i] - s.visibility_tolerance_px);
@@ -71,16 +74,16 @@ void gatherCandidates(const CandidateSources& sources, const std::int32_t* x, co
 
 void candidateMedian(const float* disparity, const std::uint32_t* weight, int n, float* __restrict out) {
   std::uint32_t needed[kHoleBatch] = {}, sum[kHoleBatch];
-  for (int k = 0; k < 16; ++k)
+  for (int k = 0; k < kHoleRays; ++k)
     for (int i = 0; i < n; ++i) needed[i] += weight[k * n + i];
   for (int i = 0; i < n; ++i) {
     needed[i] = needed[i] / 2 + needed[i] % 2;
     out[i] = __builtin_inff();
   }
-  for (int k = 0; k < 16; ++k) {
+  for (int k = 0; k < kHoleRays; ++k) {
     const float* d = disparity + k * n;
     for (int i = 0; i < n; ++i) sum[i] = 0;
-    for (int j = 0; j < 16; ++j)
+    for (int j = 0; j < kHoleRays; ++j)
       for (int i = 0; i < n; ++i) {
         const std::uint32_t w = weight[j * n + i];
         sum[i] += disparity[j * n + i] <= d[i] ? w : 0;

@@ -4,10 +4,6 @@
 namespace pomona {
 namespace {
 
-inline int absoluteDifference(int a, int b) {
-  return a > b ? a - b : b - a;
-}
-
 void difference1(const std::uint8_t* a, const std::uint8_t* b, int n, std::uint8_t* __restrict out) {
   for (int i = 0; i < n; ++i) out[i] = static_cast<std::uint8_t>(absoluteDifference(a[i], b[i]));
 }

@@ -1,8 +1,10 @@
 // Everything an instruction set's target file compiles: the bodies, and the table of them.
+#include "core/simd/float.h"
 #include "pyramid/kernels.h"
 // clang-format off: the bodies have no includes of their own
 #include "pyramid/kernels/candidates.inl"
 #include "pyramid/kernels/laplacian.inl"
+#include "pyramid/kernels/planes.inl"
 #include "pyramid/kernels/rays.inl"
 #include "pyramid/kernels/scale.inl"
 #include "pyramid/kernels/segments.inl"
@@ -21,14 +23,15 @@ constexpr PyramidKernels kTable = {
     .expandRow = expandRow,
     .addExpandedColumn = addExpandedColumn,
     .average = average,
+    .findHoles = findHoles,
     .advanceRays = advanceRays,
     .difference1 = difference1,
     .largestDifference3 = largestDifference3,
     .countSourcesAndHoles = countSourcesAndHoles,
     .countNearPlane = countNearPlane,
+    .planeDisparities = planeDisparities,
     .localResidual = localResidual,
     .correlate = correlate,
-    .packColors = packColors,
     .gatherCandidates = gatherCandidates,
     .candidateMedian = candidateMedian,
 };

@@ -134,12 +134,10 @@ struct HoleFill {
         if (!hole(p)) continue;
         std::vector<std::pair<float, std::uint64_t>> possible;
         std::vector<float> all, row;
-        for (int dy = -2; dy <= 2; ++dy)
-          for (int dx = -2; dx <= 2; ++dx) {
-            if ((dx == 0 && dy == 0) || (std::abs(dx) == 2 && dy % 2 == 0) ||
-                (std::abs(dy) == 2 && dx % 2 == 0))
-              continue;
-            for (int k = 1; k * k * (dx * dx + dy * dy) <= radius * radius; ++k) {
+        for (int dy = -1; dy <= 1; ++dy)
+          for (int dx = -1; dx <= 1; ++dx) {
+            if (std::abs(dx) + std::abs(dy) != 1) continue;
+            for (int k = 1; k <= radius; ++k) {
               const int u = x + k * dx, v = y + k * dy;
               if (u < 0 || v < 0 || u >= width || v >= height) break;
               if (!source(v * width + u)) continue;
@@ -148,7 +146,7 @@ struct HoleFill {
               if (dy == 0) row.push_back(e);
               const double position = std::floor(static_cast<float>(x) - e + 0.5f);
               if (position < 0 || position >= width || !(right(y, static_cast<int>(position)) < e - 1.5f))
-                possible.push_back({e, weight(y, x, v, u, k, dx, dy)});
+                possible.push_back({e, weight(y, x, v, u, k)});
               break;
             }
           }
@@ -187,13 +185,12 @@ struct HoleFill {
   }
 
  private:
-  std::uint64_t weight(int y, int x, int v, int u, int steps, int dx, int dy) const {
+  std::uint64_t weight(int y, int x, int v, int u, int steps) const {
     int difference = 0;
     for (int c = 0; c < channels; ++c) difference += std::abs(guide(y, x, c) - guide(v, u, c));
     const auto integer = [](double w) { return static_cast<std::uint64_t>(std::llround(w * 65535)); };
-    return std::max<std::uint64_t>(1, integer(std::exp(-difference / (12.0 * channels))) *
-                                          integer(std::exp(-steps * std::sqrt(dx * dx + dy * dy) / 30.0)) /
-                                          16);
+    return std::max<std::uint64_t>(
+        1, integer(std::exp(-difference / (12.0 * channels))) * integer(std::exp(-steps / 30.0)) / 16);
   }
   static float median(std::vector<std::pair<float, std::uint64_t>> c) {
     std::sort(c.begin(), c.end());
