@@ -136,11 +136,18 @@ struct ScoreRow {
   std::uint16_t* curvature;  ///< out: below + above - 2 best, or 0
 };
 
+/// How far the minimum lies from a whole disparity, towards its better neighbour: 1/2 - a r - b r^2 - c r^3,
+/// if that neighbour is r times as much worse than it as the other.
+struct SubpixelCurve {
+  float a, b, c;
+};
+
 /// Sub-pixel disparities from what winner-take-all left of one row of one view.
 struct RefineRow {
   int width, disparities, min_disparity;
   const std::uint16_t *index, *best, *below, *above;
-  float* disparity;  ///< out; NaN where index is kNoIndex
+  float* disparity;     ///< out; NaN where index is kNoIndex
+  SubpixelCurve curve;  ///< for SubpixelMethod::kFitted
 };
 
 struct SgmKernels {

@@ -20,6 +20,10 @@ PartnerColumns PartnerColumns::of(int width, int min_disparity, int disparities)
   return {left, right, width - left - right};
 }
 
+SubpixelCurve subpixelCurve(int paths) {
+  return paths == 8 ? SubpixelCurve{0.42f, 0.5f - 0.42f, 0} : SubpixelCurve{0.49f, -0.375f, 0.385f};
+}
+
 void finishRow(const WinnerRow& w, int y, const PartnerColumns& columns, const MatchOptions& o,
                const SgmKernels& kernels, MatchMaps& out) {
   const int left = columns.left, width = columns.width, all = out.disparity.width();
@@ -38,9 +42,10 @@ void finishRow(const WinnerRow& w, int y, const PartnerColumns& columns, const M
   std::fill(right_disparity + columns.right + width, right_disparity + all, kNan);
 
   const auto refine = kernels.refine[static_cast<int>(o.winner.subpixel)];
-  refine({width, o.disparities, o.min_disparity, w.index, w.best, w.below, w.above, disparity + left});
+  const SubpixelCurve curve = subpixelCurve(o.aggregation.paths);
+  refine({width, o.disparities, o.min_disparity, w.index, w.best, w.below, w.above, disparity + left, curve});
   refine({width, o.disparities, o.min_disparity, w.right_index, w.right_best, w.right_below, w.right_above,
-          right_disparity + columns.right});
+          right_disparity + columns.right, curve});
   kernels.score({width, w.best, w.below, w.above, w.second, margin + left, curvature + left});
 
   std::fill_n(state + left, width, static_cast<std::uint8_t>(PixelState::kMeasured));

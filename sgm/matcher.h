@@ -64,6 +64,9 @@ struct MatchMaps {
   void resize(int width, int height);
 };
 
+/// The curve of SubpixelMethod::kFitted: bench/subpixel fits it to the sums of 4 and of 8 paths.
+SubpixelCurve subpixelCurve(int paths);
+
 /// Row y of the maps, which have their size, from the winners of `columns` of it, whose disparities begin
 /// with options.min_disparity. All other pixels are out of range.
 void finishRow(const WinnerRow& winners, int y, const PartnerColumns& columns, const MatchOptions& options,

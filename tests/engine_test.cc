@@ -95,9 +95,9 @@ TEST(Engine, WholeFrameGoldenHashes) {
   };
   EXPECT_EQ(hash("fast", OutputMode::kSparse), 5399657888779382725u);
   EXPECT_EQ(hash("fast", OutputMode::kDense), 4370170278075175335u);
-  EXPECT_EQ(hash("balanced", OutputMode::kSparse), 3010555182193778058u);
-  EXPECT_EQ(hash("balanced", OutputMode::kDense), 7526953149010219381u);
-  EXPECT_EQ(hash("quality", OutputMode::kDense), 12536638858723544178u);
+  EXPECT_EQ(hash("balanced", OutputMode::kSparse), 5942220946444196805u);
+  EXPECT_EQ(hash("balanced", OutputMode::kDense), 16096722041883362878u);
+  EXPECT_EQ(hash("quality", OutputMode::kDense), 12855416667109310991u);
 }
 
 TEST(Engine, AnEngineGivesTheSameFrameAfterFrameOfAnySize) {

@@ -3,9 +3,9 @@
 //
 // With S the aggregated sums, A = S[d-1] - S[d], C = S[d+1] - S[d] and r = min(A, C) / max(A, C), the true
 // minimum lies at f(r) from d towards the smaller of A and C. f(0) = 1/2 (the neighbour is as good as d) and
-// f(1) = 0 (symmetry) hold for any cost; what lies between depends on the cost's shape. The model is f = 1/2
-// - a r - (1/2 - a) r^2. Prints the mean true offset per bin of r, the fitted a, and the rms error of every
-// curve.
+// f(1) = 0 (symmetry) hold for any cost; what lies between depends on the cost's shape and on the number of
+// paths. The model is f = 1/2 - a r - b r^2 - (1/2 - a - b) r^3. Prints, for 4 and for 8 paths, the mean true
+// offset per bin of r, the fitted a and b, and the rms error of every curve.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -39,21 +39,18 @@ void collect(const RenderedPair& pair, int y, const WinnerRow& w, std::vector<Sa
   }
 }
 
-double rms(const std::vector<Sample>& samples, double (*curve)(double r, double a), double a) {
+double at(const SubpixelCurve& curve, double r) {
+  return 0.5 - r * (curve.a + r * (curve.b + r * curve.c));
+}
+
+template <typename Curve>
+double rms(const std::vector<Sample>& samples, const Curve& curve) {
   double sum = 0;
-  for (const Sample& s : samples) sum += (s.offset - curve(s.r, a)) * (s.offset - curve(s.r, a));
+  for (const Sample& s : samples) sum += (s.offset - curve(s.r)) * (s.offset - curve(s.r));
   return std::sqrt(sum / static_cast<double>(samples.size()));
 }
 
-double quadratic(double r, double a) {
-  return 0.5 - a * r - (0.5 - a) * r * r;
-}
-double parabola(double r, double) {
-  return (1 - r) / (2 * (1 + r));
-}
-
-int fit() {
-  const Options options = Options::preset("balanced");
+std::vector<Sample> samplesOf(Options options) {
   const SgmKernels& kernels = sgmKernels(chooseIsa({}));
   constexpr int kDisparities = 64;
   std::vector<Sample> samples;
@@ -69,33 +66,55 @@ int fit() {
           [&](int y, const WinnerRow& winners) { collect(pair, y, winners, samples); }, scratch, 1);
     }
 
+  return samples;
+}
+
+/// Least squares of offset - (1 - r^3) / 2 on a (r^3 - r) + b (r^3 - r^2).
+SubpixelCurve fitted(const std::vector<Sample>& samples) {
+  double xx = 0, xz = 0, zz = 0, xy = 0, zy = 0;
+  for (const Sample& s : samples) {
+    const double cube = s.r * s.r * s.r, x = cube - s.r, z = cube - s.r * s.r,
+                 y = s.offset - 0.5 * (1 - cube);
+    xx += x * x;
+    xz += x * z;
+    zz += z * z;
+    xy += x * y;
+    zy += z * y;
+  }
+  const double determinant = xx * zz - xz * xz;
+  const double a = (xy * zz - zy * xz) / determinant, b = (zy * xx - xy * xz) / determinant;
+  return {static_cast<float>(a), static_cast<float>(b), static_cast<float>(0.5 - a - b)};
+}
+
+void report(int paths) {
+  Options options = Options::preset("balanced");
+  options.aggregation.paths = paths;
+  const std::vector<Sample> samples = samplesOf(options);
+  const SubpixelCurve curve = fitted(samples), in_use = subpixelCurve(paths);
   constexpr int kBins = 20;
   double sum[kBins] = {};
   int count[kBins] = {};
-  double xx = 0, xy = 0;  // least squares of (offset - 1/2 + r^2 / 2) on a: (r^2 - r) a
   for (const Sample& s : samples) {
     const int bin = std::min(kBins - 1, static_cast<int>(s.r * kBins));
     sum[bin] += s.offset;
     ++count[bin];
-    const double x = s.r * s.r - s.r, y = s.offset - 0.5 + 0.5 * s.r * s.r;
-    xx += x * x;
-    xy += x * y;
   }
-  const double a = xy / xx;
-  std::printf("samples %zu\n   r     mean offset   fitted\n", samples.size());
+  std::printf("%d paths, %zu samples\n   r     mean offset   fitted   in use\n", paths, samples.size());
   for (int b = 0; b < kBins; ++b) {
     const double r = (b + 0.5) / kBins;
-    std::printf("%.3f   %10.4f   %.4f\n", r, count[b] ? sum[b] / count[b] : 0, quadratic(r, a));
+    std::printf("%.3f   %10.4f   %.4f   %.4f\n", r, count[b] ? sum[b] / count[b] : 0, at(curve, r),
+                at(in_use, r));
   }
-  std::printf("a = %.4f\nrms: fitted %.4f, a = 1/4 %.4f, equiangular (a = 1/2) %.4f, parabola %.4f\n", a,
-              rms(samples, quadratic, a), rms(samples, quadratic, 0.25), rms(samples, quadratic, 0.5),
-              rms(samples, parabola, 0));
-  return 0;
+  std::printf("a = %.4f, b = %.4f\nrms: fitted %.4f, in use %.4f, equiangular %.4f, parabola %.4f\n\n",
+              curve.a, curve.b, rms(samples, [&](double r) { return at(curve, r); }),
+              rms(samples, [&](double r) { return at(in_use, r); }),
+              rms(samples, [](double r) { return 0.5 * (1 - r); }),
+              rms(samples, [](double r) { return (1 - r) / (2 * (1 + r)); }));
 }
 
 }  // namespace
 }  // namespace pomona
 
 int main() {
-  return pomona::fit();
+  for (const int paths : {4, 8}) pomona::report(paths);
 }
