@@ -89,7 +89,10 @@ MeasureOptions optionsOf(const MeasureArguments& arguments) {
   MeasureOptions options;
   if (arguments.shape == "surface") options.shape = ObjectShape::kSurface;
   if (!arguments.radius.empty()) {
-    const Numbers n = numbersOf("--radius", arguments.radius, 2, "RADIUS,SIGMA in mm, both above 0");
+    constexpr const char* kForm = "RADIUS,SIGMA in mm, both above 0";
+    const Numbers n = numbersOf("--radius", arguments.radius, 2, kForm);
+    if (n[0] <= 0 || n[1] <= 0)
+      throw std::invalid_argument("--radius is '" + arguments.radius + "'; allowed: " + kForm);
     options.radius_m = n[0] / 1000;
     options.radius_sigma_m = n[1] / 1000;
   }

@@ -451,7 +451,8 @@ class BadOptions(CommandTest):
                                 (("--polygon", "1,2,3"), "--polygon"), (("--polygon", "1,2,3,4"), "three corners"),
                                 (("--mask", "absent.png"), "absent.png"), (("--point", "5"), "--point"),
                                 (("--box", "1,1,9,9", "--radius", "30"), "--radius"),
-                                (("--box", "1,1,9,9", "--radius", "-30,4"), "radius_m")):
+                                (("--box", "1,1,9,9", "--radius", "-30,4"), "--radius is '-30,4'; allowed"),
+                                (("--box", "1,1,9,9", "--radius", "0,0"), "--radius is '0,0'; allowed")):
             self.assert_refused(self.measure(*arguments), part)
         self.assert_refused(self.measure(), "--box", 2)
         self.assert_refused(self.run_command("measure", self.left, self.right, "--box", "1,1,9,9"), "--calib", 2)

@@ -85,6 +85,6 @@ std::vector<Contour> ripeOutlines(const cv::Mat& bgr) {
   for (const std::vector<Contour>& of_piece : parts)
     std::copy_if(of_piece.begin(), of_piece.end(), std::back_inserter(outlines), std::not_fn(isSmall));
   for (Contour& outline : outlines)
-    for (cv::Point& p : outline) p *= 2;
+    for (cv::Point& p : outline) p = 2 * p + cv::Point(1, 1);  // pixel p of the half covers 2 p and 2 p + 1
   return outlines;
 }

@@ -55,7 +55,8 @@ struct WinnerOptions {
 };
 
 struct ValidationOptions {
-  /// Largest |d_left - d_right| in pixels that passes; a negative value switches the check off.
+  /// Largest |d_left - d_right| in pixels that passes; a negative value switches the check off. Stricter maps
+  /// hold fewer pixels and fewer wrong ones (docs/presets.md).
   float left_right_px = 2.5f;
   /// Connected regions (4-neighbours, disparity steps up to speckle_step_px) of fewer pixels are removed; 0:
   /// off.
@@ -90,7 +91,7 @@ struct CompletionOptions {
   /// farther away the coarse maps decide. At least 1.
   int search_radius_px = 200;
   /// kFillHoles: move the jumps of the dense map to the edges of the left image, by a colour-weighted median
-  /// near jumps of more than 1 px. Measured pixels change, too.
+  /// near jumps of more than 1 px. This and the next two change measured pixels, too.
   bool weighted_median = true;
   int median_size = 5;  ///< kFillHoles: then a median of the whole map; 0 (off), 3 or 5
   /// kFillHoles: replace each disparity by a plane through the neighbours of like disparity and colour.
