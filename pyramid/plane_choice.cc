@@ -40,9 +40,8 @@ PlaneChoice::PixelCounts PlaneChoice::countPixels(const Segment& segment) const 
 
 // The plane of the sources, if there are enough of them, or if the segment as a whole agrees with it; its own
 // level if that stands out and explains it clearly better.
-std::optional<PlaneFit> PlaneChoice::planeFor(const Segment& segment, float min_coverage,
-                                              std::uint32_t seed) const {
-  const PixelCounts count = countPixels(segment);
+std::optional<PlaneFit> PlaneChoice::planeFor(const Segment& segment, const PixelCounts& count,
+                                              float min_coverage, std::uint32_t seed) const {
   if (count.holes == 0) return {};
   std::optional<SegmentMatch::Level> level;
   if (count.isBare()) level = match_.levelOf(segment);

@@ -19,19 +19,21 @@ class PlaneChoice {
               ImageView<const std::uint8_t> state, const PyramidKernels& kernels)
       : cells_(cells), match_(match), disparity_(disparity), state_(state), kernels_(kernels) {}
 
-  /// A fit relative to the segment's origin; none if the segment has no holes, or if nothing suits them.
-  /// `min_coverage`: sources per source or hole of a segment that is not matched as a whole.
-  std::optional<PlaneFit> planeFor(const Segment& segment, float min_coverage, std::uint32_t seed) const;
-
- private:
+  /// Of a segment.
   struct PixelCounts {
     int pixels = 0, sources = 0, holes = 0, cells_with_sources = 0;
 
-    bool isBare() const;
+    bool isBare() const;  ///< then it is matched as a whole
     bool has(float share, int part) const;
   };
-
   PixelCounts countPixels(const Segment& segment) const;
+
+  /// A fit relative to the segment's origin; none if the segment has no holes, or if nothing suits them.
+  /// `min_coverage`: sources per source or hole of a segment that is not matched as a whole.
+  std::optional<PlaneFit> planeFor(const Segment& segment, const PixelCounts& count, float min_coverage,
+                                   std::uint32_t seed) const;
+
+ private:
   std::optional<PlaneFit> planeOfSources(const Segment& segment, const PixelCounts& count,
                                          std::uint32_t seed) const;
   PlanePoints sample(const Segment& segment, int cells_with_sources) const;

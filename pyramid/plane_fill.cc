@@ -92,18 +92,27 @@ void fillFromPlanes(const PlaneFillInput& in, ImageView<float> disparity, ImageV
   border.find(disparity, state, scratch, threads);
   SegmentMatch match;
   match.prepare(in.left, in.right, static_cast<int>(in.min_disparity),
-                static_cast<int>(in.max_disparity - in.min_disparity) + 1, kernels, scratch, threads);
+                static_cast<int>(in.max_disparity - in.min_disparity) + 1, kernels, scratch);
   const PlaneChoice choice(cells, match, disparity, state, kernels);
   const PlaneLimits limits{in.right_disparity, in.min_disparity, in.max_disparity};
   PlaneRows filler(limits, cells, border, disparity, state, kernels);
-  SegmentPlane* const planes = scratch.take<SegmentPlane>(static_cast<std::size_t>(columns) * rows);
+  const std::size_t most_segments = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
+  SegmentPlane* const planes = scratch.take<SegmentPlane>(most_segments);
+  auto* const counts = scratch.take<PlaneChoice::PixelCounts>(most_segments);
   for (std::size_t i = firstDivision(in); i < kDivisions.size(); ++i) {
     const Segments& s = divisions[i];
     cells.group(s.labels, s.count);
+    const auto segmentAt = [&](int j) { return Segment{cells.segment(j), cells, s.labels}; };
+    parallelStrips(threads, s.count, kMinSegmentsPerStrip, [&](int begin, int end) {
+      for (int j = begin; j < end; ++j) counts[j] = choice.countPixels(segmentAt(j));
+    });
+    for (int j = 0; j < s.count; ++j)
+      if (counts[j].isBare()) match.announce(segmentAt(j));
+    match.readAnnounced(threads);
     parallelStrips(threads, s.count, kMinSegmentsPerStrip, [&](int begin, int end) {
       for (int j = begin; j < end; ++j) {
-        const Segment segment{cells.segment(j), cells, s.labels};
-        planes[j] = planeAt(segment.origin(), choice.planeFor(segment, kDivisions[i].min_coverage,
+        const Segment segment = segmentAt(j);
+        planes[j] = planeAt(segment.origin(), choice.planeFor(segment, counts[j], kDivisions[i].min_coverage,
                                                               static_cast<std::uint32_t>(j)));
       }
     });

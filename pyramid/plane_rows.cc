@@ -1,5 +1,6 @@
 #include "pyramid/plane_rows.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "pyramid/holes.h"
@@ -10,6 +11,7 @@ namespace {
 
 constexpr std::uint8_t kFilled = static_cast<std::uint8_t>(PixelState::kFilledPlane);
 constexpr int kMostCellColumns = 4;  // of a cell, see SegmentCells
+constexpr int kCellChunk = 512;
 
 }  // namespace
 
@@ -35,10 +37,23 @@ void PlaneRows::fillBatch(const PlaneFillRow& row, int cell_row, Batch& batch) {
 }
 
 void PlaneRows::fill(int cell_row, const SegmentPlane* planes, const std::int32_t* labels) {
+  for (int column = 0; column < cells_.columns(); column += kCellChunk)
+    fillChunk(cell_row, column, std::min(cells_.columns(), column + kCellChunk), planes, labels);
+}
+
+// Cells are looked through once, not once for each of their rows: most have no holes.
+void PlaneRows::fillChunk(int cell_row, int begin, int end, const SegmentPlane* planes,
+                          const std::int32_t* labels) {
   const auto cellAt = [&](int column) {
     return SegmentCells::Cell{static_cast<std::uint16_t>(column), static_cast<std::uint16_t>(cell_row)};
   };
   const std::int32_t* const label = labels + static_cast<std::ptrdiff_t>(cell_row) * cells_.columns();
+  int open[kCellChunk], open_count = 0;
+  for (int column = begin; column < end; ++column) {
+    open[open_count] = column;
+    open_count += (cells_.holes(cellAt(column)) != 0) & !std::isnan(planes[label[column]].c);
+  }
+  if (open_count == 0) return;
   const int first_y = cells_.firstPixel(cellAt(0)).y, height = cells_.height(cellAt(0));
   Batch batch;
   for (int y = first_y; y < first_y + height; ++y) {
@@ -57,11 +72,11 @@ void PlaneRows::fill(int cell_row, const SegmentPlane* planes, const std::int32_
                            .right_x = ends.right.x,
                            .beyond_left_px = ends.left.disparity,
                            .beyond_right_px = ends.right.disparity};
-    for (int column = 0; column < cells_.columns(); ++column) {
+    for (int i = 0; i < open_count; ++i) {
+      const int column = open[i];
       const SegmentCells::Cell cell = cellAt(column);
-      if (cells_.holes(cell) == 0 || std::isnan(planes[label[column]].c)) continue;
-      const int begin = cells_.firstPixel(cell).x, end = begin + cells_.width(cell);
-      for (int x = begin; x < end; ++x) {
+      const int first_x = cells_.firstPixel(cell).x;
+      for (int x = first_x; x < first_x + cells_.width(cell); ++x) {
         batch.x[batch.count] = x;
         batch.segment[batch.count] = label[column];
         batch.column[batch.count] = cell.x;

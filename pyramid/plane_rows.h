@@ -38,6 +38,7 @@ class PlaneRows {
 
  private:
   struct Batch;
+  void fillChunk(int cell_row, int begin, int end, const SegmentPlane* planes, const std::int32_t* labels);
   void fillBatch(const PlaneFillRow& row, int cell_row, Batch& batch);
   void continueLevel(int y, int begin, int end, const ViewBorder::Source& source, const std::int32_t* labels);
 

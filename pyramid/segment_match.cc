@@ -31,8 +31,7 @@ void residualsOf(ImageView<const std::uint8_t> in, int y, const PyramidKernels& 
 }  // namespace
 
 void SegmentMatch::prepare(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,
-                           int min_disparity, int disparities, const PyramidKernels& kernels, Arena& arena,
-                           int threads) {
+                           int min_disparity, int disparities, const PyramidKernels& kernels, Arena& arena) {
   kernels_ = &kernels;
   min_disparity_ = min_disparity;
   disparities_ = left.empty() ? 0 : disparities;
@@ -40,15 +39,34 @@ void SegmentMatch::prepare(ImageView<const std::uint8_t> left, ImageView<const s
   const int width = left.width, last = min_disparity + disparities - 1;
   const int before = std::max(0, last), behind = std::max(0, -min_disparity);
   offset_ = before - last;
+  left_view_ = left;
+  right_view_ = right;
   left_ = arena.image<std::int8_t>(width, left.height);
   right_ = arena.image<std::int8_t>(before + width + behind, left.height);
-  parallelStrips(threads, left.height, kMinRowsPerStrip, [&](int begin, int end) {
+  rows_ = arena.take<RowState>(static_cast<std::size_t>(left.height));
+  std::fill_n(rows_, left.height, RowState::kUnread);
+}
+
+void SegmentMatch::announce(const Segment& segment) {
+  if (disparities_ == 0 || innerPixels(segment) < kFewestPixels) return;
+  const Cell last = segment.members.back();
+  const int end = segment.cells.firstPixel(last).y + segment.cells.height(last);
+  for (int y = segment.origin().y; y < end; ++y)
+    if (rows_[y] == RowState::kUnread) rows_[y] = RowState::kAnnounced;
+}
+
+void SegmentMatch::readAnnounced(int threads) {
+  if (disparities_ == 0) return;
+  const int before = std::max(0, min_disparity_ + disparities_ - 1), behind = std::max(0, -min_disparity_);
+  parallelStrips(threads, left_.height, kMinRowsPerStrip, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
-      residualsOf(left, y, kernels, left_.row(y));
+      if (rows_[y] != RowState::kAnnounced) continue;
+      residualsOf(left_view_, y, *kernels_, left_.row(y));
       std::int8_t* to = right_.row(y);
       std::fill_n(to, before, std::int8_t{0});
-      residualsOf(right, y, kernels, to + before);
-      std::fill_n(to + before + width, behind, std::int8_t{0});
+      residualsOf(right_view_, y, *kernels_, to + before);
+      std::fill_n(to + before + left_.width, behind, std::int8_t{0});
+      rows_[y] = RowState::kRead;
     }
   });
 }
@@ -70,12 +88,17 @@ void SegmentMatch::forEachInnerCell(const Segment& segment, F visit) const {
   }
 }
 
+int SegmentMatch::innerPixels(const Segment& segment) const {
+  int pixels = 0;
+  forEachInnerCell(segment, [&](Cell c) { pixels += segment.cells.width(c) * segment.cells.height(c); });
+  return pixels;
+}
+
 /// visit(first pixel, count) for the rows of the inner cells, or for an even share of them if there are too
 /// many.
 template <typename F>
 void SegmentMatch::forEachInnerRow(const Segment& segment, F visit) const {
-  int pixels = 0;
-  forEachInnerCell(segment, [&](Cell c) { pixels += segment.cells.width(c) * segment.cells.height(c); });
+  const int pixels = innerPixels(segment);
   if (pixels < kFewestPixels) return;
   const int step = (pixels + kMostPixels - 1) / kMostPixels;
   int rows = 0;

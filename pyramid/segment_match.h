@@ -39,9 +39,15 @@ class SegmentMatch {
   };
 
   /// The views are gray and of equal size, or empty: no level stands out then. Disparities are searched from
-  /// `min_disparity` up, at most kMostDisparities. What is made of them lies in the current scope of `arena`.
+  /// `min_disparity` up, at most kMostDisparities. What is made of them lies in the current scope of `arena`,
+  /// and they are to stay as they are.
   void prepare(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right, int min_disparity,
-               int disparities, const PyramidKernels& kernels, Arena& arena, int threads);
+               int disparities, const PyramidKernels& kernels, Arena& arena);
+
+  /// Texture is looked at only where segments ask for it, as most images have few that do. Each one is to be
+  /// announced, and then all of them read, before its level or a score is asked for.
+  void announce(const Segment& segment);
+  void readAnnounced(int threads);
 
   /// The disparity that stands out, if one does: by 4 deviations above the mean of the scores more than 2 px
   /// away, and by 1.5 above the best of them. None does if the segment has fewer than 1000 px to compare, if
@@ -56,8 +62,11 @@ class SegmentMatch {
   static constexpr int kMostDisparities = 1024;
 
  private:
+  enum class RowState : std::uint8_t { kUnread, kAnnounced, kRead };
+
   template <typename F>
   void forEachInnerCell(const Segment& segment, F visit) const;
+  int innerPixels(const Segment& segment) const;
   template <typename F>
   void forEachInnerRow(const Segment& segment, F visit) const;
   // What left pixel (x, y) meets at the largest disparity, at the next smaller one ...
@@ -66,6 +75,8 @@ class SegmentMatch {
   const PyramidKernels* kernels_ = nullptr;
   int min_disparity_ = 0, disparities_ = 0;
   int offset_ = 0;  // see rightOf()
+  ImageView<const std::uint8_t> left_view_, right_view_;
+  RowState* rows_ = nullptr;
   ImageView<std::int8_t>
       left_;  // differences from the local mean, in 1/25 gray values; 0 if they are too large
   ImageView<std::int8_t> right_;  // the same, with zeros for the columns outside

@@ -99,7 +99,9 @@ struct Walls {
   SegmentMatch prepared(int min_disparity, int disparities, Isa isa = usableIsas().back(),
                         int threads = 1) const {
     SegmentMatch match;
-    match.prepare(left.view(), right.view(), min_disparity, disparities, pyramidKernels(isa), arena, threads);
+    match.prepare(left.view(), right.view(), min_disparity, disparities, pyramidKernels(isa), arena);
+    for (int i = 0; i < 2; ++i) match.announce(wall(i));
+    match.readAnnounced(threads);
     return match;
   }
   // At least 4 px from the seam, in whole cells.

@@ -163,8 +163,11 @@ void runBareSegment(KernelMaterial& m, const KernelTables& tables) {
   cells.count(m.sparse_disparity.view(), m.sparse_state.view(), columns, rows, tables.pyramid, m.scratch, 1);
   cells.group(labels.data(), 1);
   SegmentMatch match;
-  match.prepare(in.left, in.right, 0, m.size.disparities, tables.pyramid, m.scratch, 1);
-  match.levelOf({cells.segment(0), cells, labels.data()});
+  match.prepare(in.left, in.right, 0, m.size.disparities, tables.pyramid, m.scratch);
+  const Segment whole{cells.segment(0), cells, labels.data()};
+  match.announce(whole);
+  match.readAnnounced(1);
+  match.levelOf(whole);
 }
 
 }  // namespace

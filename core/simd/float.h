@@ -133,6 +133,23 @@ inline Ints gather(const void* base, Ints index) {
   return v;
 #endif
 }
+/// The same at offsets counted in bytes.
+inline Ints gatherBytes(const void* base, Ints offset) {
+#if defined(__AVX512F__)
+  return reinterpret_cast<Ints>(_mm512_i32gather_epi32(reinterpret_cast<__m512i>(offset), base, 1));
+#elif defined(__AVX2__)
+  return reinterpret_cast<Ints>(
+      _mm256_i32gather_epi32(static_cast<const int*>(base), reinterpret_cast<__m256i>(offset), 1));
+#else
+  Ints v;
+  for (int i = 0; i < kFloatLanes; ++i) {
+    std::int32_t word;
+    __builtin_memcpy(&word, static_cast<const std::uint8_t*>(base) + offset[i], sizeof word);
+    v[i] = word;
+  }
+  return v;
+#endif
+}
 /// out[i] = from[index[i]]; GCC 12 makes no gathers of such a loop.
 inline void gatherRow(const float* from, const std::int32_t* index, int count, float* __restrict out) {
   int i = 0;

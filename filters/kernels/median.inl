@@ -54,22 +54,6 @@ inline Ints balanceUnknown(Floats (&v)[kCount]) {
   return odd;
 }
 
-void medianRow5x5(const float* const* rows, int width, float* out) {
-  constexpr int kSize = 5;
-  for (int x = 0; x < width; x += kFloatLanes) {
-    Floats window[kSize * kSize];
-#pragma GCC unroll 32
-    for (int i = 0; i < kSize * kSize; ++i) window[i] = load(rows[i / kSize] + x + i % kSize - kSize / 2);
-    const Floats centre = window[kSize * kSize / 2];
-    Floats sum = {};  // NaN if a pixel is unknown
-#pragma GCC unroll 5
-    for (int i = 0; i < kSize * kSize; i += kSize)
-      sum += window[i] + window[i + 1] + (window[i + 2] + window[i + 3]) + window[i + 4];
-    if (anyNan(sum)) balanceUnknown(window);  // rare: it is completed maps that are smoothed so far
-    storeFirst(out + x, isNan(centre) ? centre : medianOf(window), width - x);
-  }
-}
-
 constexpr int kMedianChunk = 256;  ///< pixels whose columns are sorted before they are used
 
 /// Columns of three pixels each, balanced.
@@ -127,6 +111,131 @@ void medianRow3x3(const float* const* rows, int width, float* out) {
                     min(min(v[0][2], v[1][2]), v[2][2]));
       const Floats centre = load(rows[1] + begin + i);
       storeFirst(out + begin + i, isNan(centre) ? centre : median, count - i);
+    }
+  }
+}
+
+/// kCount vectors, sorted lane by lane.
+template <int kCount>
+struct Sorted {
+  Floats v[kCount];
+};
+
+/// Every second one, from the first or from the second on.
+template <int kFirst, int kCount>
+inline Sorted<(kCount + 1 - kFirst) / 2> everySecond(const Sorted<kCount>& from) {
+  Sorted<(kCount + 1 - kFirst) / 2> some;
+#pragma GCC unroll 8
+  for (int i = 0; 2 * i + kFirst < kCount; ++i) some.v[i] = from.v[2 * i + kFirst];
+  return some;
+}
+
+/// K. E. Batcher, "Sorting networks and their applications", AFIPS 1968: merge the odd ones and the even
+/// ones, and only neighbours are left to be compared. What the caller does not look at costs nothing.
+template <int kCount>
+inline Sorted<2 * kCount> merge(const Sorted<kCount>& a, const Sorted<kCount>& b) {
+  Sorted<2 * kCount> all;
+  if constexpr (kCount == 1) {
+    all = {{a.v[0], b.v[0]}};
+    sortPair(all.v[0], all.v[1]);
+  } else {
+    const auto odd = merge(everySecond<0>(a), everySecond<0>(b));
+    const auto even = merge(everySecond<1>(a), everySecond<1>(b));
+    all.v[0] = odd.v[0];
+#pragma GCC unroll 16
+    for (int i = 0; i + 1 < kCount; ++i) {
+      all.v[2 * i + 1] = odd.v[i + 1];
+      all.v[2 * i + 2] = even.v[i];
+      sortPair(all.v[2 * i + 1], all.v[2 * i + 2]);
+    }
+    all.v[2 * kCount - 1] = kCount % 2 != 0 ? odd.v[kCount] : even.v[kCount - 1];
+  }
+  return all;
+}
+
+inline void sortFive(Floats (&v)[5]) {
+  sortPair(v[0], v[3]), sortPair(v[1], v[4]);
+  sortPair(v[0], v[2]), sortPair(v[1], v[3]);
+  sortPair(v[0], v[1]), sortPair(v[2], v[4]);
+  sortPair(v[1], v[2]), sortPair(v[3], v[4]);
+  sortPair(v[2], v[3]);
+}
+
+/// kCount values of each pixel of a chunk, sorted.
+template <int kCount>
+struct SortedRows {
+  float v[kCount][kMedianChunk + 2 * kFloatLanes];
+
+  Sorted<kCount> at(int i) const {
+    Sorted<kCount> all;
+#pragma GCC unroll 16
+    for (int k = 0; k < kCount; ++k) all.v[k] = load(v[k] + i);
+    return all;
+  }
+  void set(int i, const Sorted<kCount>& all) {
+#pragma GCC unroll 16
+    for (int k = 0; k < kCount; ++k) store(v[k] + i, all.v[k]);
+  }
+};
+
+/// Columns of five pixels each, and pairs of neighbouring columns; of no use where a pixel is unknown.
+struct ColumnsOfFive {
+  SortedRows<5> one;
+  SortedRows<10> pair;                        ///< of this column and the next one
+  float sum[kMedianChunk + 2 * kFloatLanes];  ///< NaN if a pixel is unknown
+};
+
+inline void sortColumns(const float* const* rows, int begin, int count, ColumnsOfFive& columns) {
+  for (int i = 0; i < count + 4; i += kFloatLanes) {
+    Sorted<5> column;
+#pragma GCC unroll 5
+    for (int k = 0; k < 5; ++k) column.v[k] = load(rows[k] + begin + i);
+    const auto& v = column.v;
+    store(columns.sum + i, v[0] + v[1] + (v[2] + v[3]) + v[4]);
+    sortFive(column.v);
+    columns.one.set(i, column);
+  }
+  for (int i = 0; i < count + 2; i += kFloatLanes)
+    columns.pair.set(i, merge(columns.one.at(i), columns.one.at(i + 1)));
+}
+
+/// The median of the 5x5 pixels of five columns, the first one at `i`: of two pairs, and of what is left.
+inline Floats medianOfColumns(const ColumnsOfFive& columns, int i) {
+  constexpr int kMiddle = 12;  // of 25, from 0
+  const Sorted<20> four = merge(columns.pair.at(i), columns.pair.at(i + 2));
+  const Sorted<5> fifth = columns.one.at(i + 4);
+  // If the first k + 1 of the fifth column are among the lower ones, so are the first kMiddle - k of the
+  // others.
+  Floats median = four.v[kMiddle];
+#pragma GCC unroll 5
+  for (int k = 0; k < 5; ++k) median = min(median, max(fifth.v[k], four.v[kMiddle - 1 - k]));
+  return median;
+}
+
+/// Of one vector, any of its windows' pixels may be unknown.
+inline Floats medianOfBalanced5x5(const float* const* rows, int x) {
+  constexpr int kSize = 5;
+  Floats window[kSize * kSize];
+#pragma GCC unroll 32
+  for (int i = 0; i < kSize * kSize; ++i) window[i] = load(rows[i / kSize] + x + i % kSize - kSize / 2);
+  const Floats centre = window[kSize * kSize / 2];
+  balanceUnknown(window);
+  return isNan(centre) ? centre : medianOf(window);
+}
+
+/// Five pixels share a column, and four a pair.
+void medianRow5x5(const float* const* rows, int width, float* out) {
+  ColumnsOfFive columns;
+  for (int begin = 0; begin < width; begin += kMedianChunk) {
+    const int count = width - begin < kMedianChunk ? width - begin : kMedianChunk;
+    sortColumns(rows, begin - 2, count, columns);
+    for (int i = 0; i < count; i += kFloatLanes) {
+      const float* const sum = columns.sum + i;
+      const Floats known = load(sum) + load(sum + 1) + (load(sum + 2) + load(sum + 3)) + load(sum + 4);
+      // Rare: it is completed maps that are smoothed so far.
+      const Floats median =
+          anyNan(known) ? medianOfBalanced5x5(rows, begin + i) : medianOfColumns(columns, i);
+      storeFirst(out + begin + i, median, count - i);
     }
   }
 }

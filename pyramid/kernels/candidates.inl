@@ -9,14 +9,34 @@ inline int absoluteDifference(int a, int b) {
 
 /// The sums over the channels between the pixels at byte offsets a[i] and b[i]. One at a time on purpose:
 /// left to itself, GCC takes vectors of offsets apart, which is slower.
-__attribute__((optimize("no-tree-vectorize"))) void colorDifferences(const std::uint8_t* guide, int channels,
-                                                                     const std::int32_t* a,
-                                                                     const std::int32_t* b, int n,
-                                                                     std::int32_t* __restrict out) {
+__attribute__((optimize("no-tree-vectorize"))) void channelDifferences(const std::uint8_t* guide,
+                                                                       int channels, const std::int32_t* a,
+                                                                       const std::int32_t* b, int n,
+                                                                       std::int32_t* __restrict out) {
   for (int i = 0; i < n; ++i) {
-    const std::uint8_t *p = guide + a[i], *q = guide + b[i];
-    out[i] = absoluteDifference(p[0], q[0]);
-    if (channels == 3) out[i] += absoluteDifference(p[1], q[1]) + absoluteDifference(p[2], q[2]);
+    out[i] = 0;
+    for (int c = 0; c < channels; ++c) out[i] += absoluteDifference(guide[a[i] + c], guide[b[i] + c]);
+  }
+}
+
+inline Ints absoluteDifference(Ints a, Ints b) {
+  return max(a - b, b - a);
+}
+
+/// The three bytes at each offset. A fourth is read: the one before them, as the image may end behind them.
+inline Ints gatherColors(const std::uint8_t* guide, Ints offset) {
+  const Ints has_before = offset > 0;
+  return gatherBytes(guide, offset + has_before) >> (has_before & 8) & 0xFFFFFF;
+}
+
+/// The same for three channels of more than one pixel; a, b and out have room for whole vectors, of valid
+/// offsets.
+void colorDifferences(const std::uint8_t* guide, const std::int32_t* a, const std::int32_t* b, int n,
+                      std::int32_t* __restrict out) {
+  for (int i = 0; i < n; i += kFloatLanes) {
+    const Ints p = gatherColors(guide, load(a + i)), q = gatherColors(guide, load(b + i));
+    store(out + i, absoluteDifference(p & 255, q & 255) + absoluteDifference(p >> 8 & 255, q >> 8 & 255) +
+                       absoluteDifference(p >> 16, q >> 16));
   }
 }
 
@@ -43,7 +63,10 @@ void gatherCandidates(const CandidateSources& sources, const std::int32_t* x, co
     there[i] = source_y * s.guide_stride + source_x * s.channels;
   }
   std::int32_t difference[kHoleBatch];
-  colorDifferences(s.guide, s.channels, here, there, n, difference);
+  if (s.channels == 3 && s.width > 1)
+    colorDifferences(s.guide, here, there, n, difference);
+  else
+    channelDifferences(s.guide, s.channels, here, there, n, difference);
   float e[kHoleBatch], seen[kHoleBatch];
   std::uint32_t color_weight[kHoleBatch], distance_weight[kHoleBatch];
   gatherRow(s.disparity, index, n, e);

@@ -10,6 +10,13 @@ struct LanePlanes {
 
   LanePlanes(const SegmentPlane* planes, Ints segment) {
     static_assert(sizeof(SegmentPlane) == 8 * sizeof(float));
+    if (!anyOf(segment != segment[0])) {  // most often: gathering takes longer than all the rest
+      const SegmentPlane& plane = planes[segment[0]];
+      a = broadcast(plane.a), b = broadcast(plane.b), c = broadcast(plane.c);
+      low = broadcast(plane.low), high = broadcast(plane.high);
+      x0 = Ints{} + plane.x0, y0 = Ints{} + plane.y0;
+      return;
+    }
     const auto word = [&](int i) { return gather(reinterpret_cast<const float*>(planes) + i, segment * 8); };
     a = floatsOf(word(0)), b = floatsOf(word(1)), c = floatsOf(word(2));
     low = floatsOf(word(3)), high = floatsOf(word(4));
