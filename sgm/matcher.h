@@ -64,8 +64,8 @@ struct MatchMaps {
   void resize(int width, int height);
 };
 
-/// The curve of SubpixelMethod::kFitted, as bench/subpixel fits it to the sums of 4 paths, and to those of 8 if
-/// it has no cubic term (docs/algorithms.md says why).
+/// The curve of SubpixelMethod::kFitted, as bench/subpixel fits it to the sums of 4 paths, and to those of 8
+/// if it has no cubic term (docs/algorithms.md says why).
 SubpixelCurve subpixelCurve(int paths);
 
 /// Row y of the maps, which have their size, from the winners of `columns` of it, whose disparities begin
