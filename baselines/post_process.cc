@@ -15,8 +15,7 @@ void validate(WindowMaps& maps, SearchRange range, const ValidationOptions& vali
   Arena scratch;
   if (validation.left_right_px >= 0) {
     leftRightCheck(maps.disparity.view(), maps.state.view(), maps.right_disparity.view(),
-                   validation.left_right_px, range.min, range.count, scratch, filterKernels(chooseIsa("")),
-                   threads);
+                   {validation.left_right_px, range.min, range.count}, filterKernels(chooseIsa("")), threads);
   }
   if (validation.speckle_size_px > 0) {
     removeSpeckles(maps.disparity.view(), maps.state.view(), validation.speckle_size_px,

@@ -77,8 +77,9 @@ void SparseStage::run(const MatchInput& pair, const Settings& s, StageClock& clo
   clock.lap("matching");
 
   if (v.left_right_px >= 0)
-    leftRightCheck(maps_.disparity.view(), maps_.state.view(), maps_.right_disparity.view(), v.left_right_px,
-                   s.match.min_disparity, s.match.disparities, *s.scratch, filterKernels(s.isa), s.threads);
+    leftRightCheck(maps_.disparity.view(), maps_.state.view(), maps_.right_disparity.view(),
+                   {v.left_right_px, s.match.min_disparity, s.match.disparities}, filterKernels(s.isa),
+                   s.threads);
   clock.lap("left-right check");
 
   if (v.speckle_size_px > 0)

@@ -64,7 +64,7 @@ struct MatchedPixels {
   int x_begin, count, width;
 };
 
-/// One row of filters/left_right.h, and what becomes of the states.
+/// One row of filters/left_right.h, and what becomes of the states. At most kMostCheckedDisparities.
 struct LeftRightRow {
   int width, min_disparity, max_disparity;
   float threshold_px, tolerance_px;  ///< tolerance_px >= 1: two neighbouring columns are within it
@@ -72,9 +72,8 @@ struct LeftRightRow {
   float* disparity;                                           ///< in and out
   std::uint8_t* state;                                        ///< in and out
   std::uint8_t measured, out_of_range, mismatched, occluded;  ///< values of it
-  std::uint8_t* marks;                                        ///< scratch: kMarksPerPixel (width + 2) bytes
 };
-inline constexpr int kMarksPerPixel = 2;
+inline constexpr int kMostCheckedDisparities = 1024;
 /// Disparities of this size or more, as infinite ones, meet nothing.
 inline constexpr float kFarthestDisparity_px = 1e9f;
 

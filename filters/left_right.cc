@@ -7,28 +7,29 @@
 
 namespace pomona {
 
+void leftRightCheckRow(float* disparity, std::uint8_t* state, const float* right_disparity, int width,
+                       const LeftRightLimits& limits, const FilterKernels& kernels) {
+  kernels.leftRight({.width = width,
+                     .min_disparity = limits.min_disparity,
+                     .max_disparity = limits.min_disparity + limits.disparities - 1,
+                     .threshold_px = limits.threshold_px,
+                     .tolerance_px = std::max(limits.threshold_px, 1.0f),
+                     .right = right_disparity,
+                     .disparity = disparity,
+                     .state = state,
+                     .measured = static_cast<std::uint8_t>(PixelState::kMeasured),
+                     .out_of_range = static_cast<std::uint8_t>(PixelState::kOutOfRange),
+                     .mismatched = static_cast<std::uint8_t>(PixelState::kMismatched),
+                     .occluded = static_cast<std::uint8_t>(PixelState::kOccluded)});
+}
+
 void leftRightCheck(ImageView<float> disparity, ImageView<std::uint8_t> state,
-                    ImageView<const float> right_disparity, float threshold_px, int min_disparity,
-                    int num_disparities, Arena& scratch, const FilterKernels& kernels, int threads) {
-  const int width = disparity.width;
-  const Arena::Scope scope(scratch);
-  // Of left pixels whose epipolar line meets the right map; a row per strip.
-  const auto marks = scratch.image<std::uint8_t>(kMarksPerPixel * (width + 2), disparity.height);
+                    ImageView<const float> right_disparity, const LeftRightLimits& limits,
+                    const FilterKernels& kernels, int threads) {
   parallelStrips(threads, disparity.height, 8, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
-      kernels.leftRight({.width = width,
-                         .min_disparity = min_disparity,
-                         .max_disparity = min_disparity + num_disparities - 1,
-                         .threshold_px = threshold_px,
-                         .tolerance_px = std::max(threshold_px, 1.0f),
-                         .right = right_disparity.row(y),
-                         .disparity = disparity.row(y),
-                         .state = state.row(y),
-                         .measured = static_cast<std::uint8_t>(PixelState::kMeasured),
-                         .out_of_range = static_cast<std::uint8_t>(PixelState::kOutOfRange),
-                         .mismatched = static_cast<std::uint8_t>(PixelState::kMismatched),
-                         .occluded = static_cast<std::uint8_t>(PixelState::kOccluded),
-                         .marks = marks.row(begin)});
+      leftRightCheckRow(disparity.row(y), state.row(y), right_disparity.row(y), disparity.width, limits,
+                        kernels);
   });
 }
 

@@ -3,11 +3,17 @@
 
 #include <cstdint>
 
-#include "core/arena.h"
 #include "core/image.h"
 #include "filters/kernels.h"
 
 namespace pomona {
+
+/// What a row is checked by.
+struct LeftRightLimits {
+  float threshold_px;  ///< >= 0
+  int min_disparity;
+  int disparities;  ///< at most kMostCheckedDisparities
+};
 
 /// Rejects measured pixels whose match does not point back at them, and tells why (Hirschmueller 2008,
 /// sections 2.5 and 2.6.4).
@@ -17,15 +23,19 @@ namespace pomona {
 /// differs from d by at most `threshold_px`. Otherwise its disparity becomes NaN and its state
 ///   kOutOfRange  if x_r lies outside the image;
 ///   kMismatched  if its epipolar line meets the right map: some whole disparity e in [min_disparity,
-///                min_disparity + num_disparities) with x - e inside the image has
+///                min_disparity + disparities) with x - e inside the image has
 ///                |right_disparity(x - e) - e| <= max(threshold_px, 1), so the point should be visible in
 ///                both;
 ///   kOccluded    if not.
 ///
 /// `right_disparity` belongs to the right view and has the same sign convention, d = x_left - x_right; NaN
-/// where unknown. All maps have the same size. threshold_px >= 0.
+/// where unknown. All maps have the same size.
 void leftRightCheck(ImageView<float> disparity, ImageView<std::uint8_t> state,
-                    ImageView<const float> right_disparity, float threshold_px, int min_disparity,
-                    int num_disparities, Arena& scratch, const FilterKernels& kernels, int threads);
+                    ImageView<const float> right_disparity, const LeftRightLimits& limits,
+                    const FilterKernels& kernels, int threads);
+
+/// The same of one row of `width` pixels: no other one matters.
+void leftRightCheckRow(float* disparity, std::uint8_t* state, const float* right_disparity, int width,
+                       const LeftRightLimits& limits, const FilterKernels& kernels);
 
 }  // namespace pomona

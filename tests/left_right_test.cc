@@ -14,11 +14,6 @@ using testing::kUnknown;
 using testing::Map;
 using testing::sameBits;
 
-struct Search {
-  float threshold;
-  int min_disparity, num_disparities;
-};
-
 /// What the right view would measure: the largest disparity that lands on each of its pixels.
 Map<float> rightView(const Map<float>& left) {
   Map<float> right(left.width, left.height, kUnknown);
@@ -31,40 +26,51 @@ Map<float> rightView(const Map<float>& left) {
 }
 
 void expectTwin(const Map<float>& left, const Map<std::uint8_t>& state, const Map<float>& right,
-                Search search) {
+                const LeftRightLimits& limits) {
   Map<float> expected = left;
   Map<std::uint8_t> expected_state = state;
-  reference::leftRightCheck(expected, expected_state, right, search.threshold, search.min_disparity,
-                            search.num_disparities);
+  reference::leftRightCheck(expected, expected_state, right, limits.threshold_px, limits.min_disparity,
+                            limits.disparities);
   for (Isa isa : usableIsas())
     for (int threads : testing::kThreadCounts)
       for (int margin : {0, 3}) {
         SCOPED_TRACE(::testing::Message()
-                     << left.width << 'x' << left.height << " threshold " << search.threshold
-                     << " disparities from " << search.min_disparity << ", " << search.num_disparities
+                     << left.width << 'x' << left.height << " threshold " << limits.threshold_px
+                     << " disparities from " << limits.min_disparity << ", " << limits.disparities
                      << "; isa " << name(isa) << " threads " << threads << " margin " << margin);
         Framed<float> d(left, margin, 5.0f), r(right, margin, 5.0f);
         Framed<std::uint8_t> s(state, margin, 0);
-        Arena scratch;
-        leftRightCheck(d.view(), s.view(), r.view(), search.threshold, search.min_disparity,
-                       search.num_disparities, scratch, filterKernels(isa), threads);
+        leftRightCheck(d.view(), s.view(), r.view(), limits, filterKernels(isa), threads);
         ASSERT_TRUE(sameBits(d.map(), expected));
         ASSERT_TRUE(sameBits(s.map(), expected_state));
         ASSERT_TRUE(d.frameIsIntact() && s.frameIsIntact() && r.frameIsIntact());
       }
 }
 
+void expectTwinOnRandomMaps(int width, int height) {
+  for (const LeftRightLimits& limits : {LeftRightLimits{1.0f, 0, 32},
+                                        {0.0f, -5, 40},
+                                        {0.5f, 3, 1},
+                                        {2.0f, 0, 200},
+                                        {1.0f, -60, 7},
+                                        {2.5f, -300, kMostCheckedDisparities},
+                                        {2.5f, 100, 50}}) {
+    const unsigned seed = 7u * width + height;
+    Map<float> left = testing::randomDisparity(width, height, 0.2, seed);
+    Map<float> right = rightView(testing::randomDisparity(width, height, 0.3, seed));
+    for (float& d : left.pixels) d += static_cast<float>(limits.min_disparity);
+    for (float& d : right.pixels) d += static_cast<float>(limits.min_disparity);
+    expectTwin(left, testing::stateOf(left), right, limits);
+  }
+}
+
 TEST(LeftRightCheck, EqualsItsTwin) {
-  const Search searches[] = {{1.0f, 0, 32}, {0.0f, -5, 40}, {0.5f, 3, 1}, {2.0f, 0, 200}, {1.0f, -60, 7}};
   for (int width : testing::kWidths)
-    for (int height : {1, 19})
-      for (const Search& search : searches) {
-        Map<float> left = testing::randomDisparity(width, height, 0.2, 7u * width + height);
-        Map<float> right = rightView(testing::randomDisparity(width, height, 0.3, 7u * width + height));
-        for (float& d : left.pixels) d += static_cast<float>(search.min_disparity);
-        for (float& d : right.pixels) d += static_cast<float>(search.min_disparity);
-        expectTwin(left, testing::stateOf(left), right, search);
-      }
+    for (int height : {1, 19}) expectTwinOnRandomMaps(width, height);
+}
+
+TEST(LeftRightCheck, EqualsItsTwinOnRowsOfSeveralChunks) {
+  for (int width : {kMatchChunk, kMatchChunk + 1, 3 * kMatchChunk - 1}) expectTwinOnRandomMaps(width, 9);
 }
 
 TEST(LeftRightCheck, EqualsItsTwinOnExtremeFills) {
@@ -82,8 +88,7 @@ TEST(LeftRightCheck, PixelsOfOtherStatesAreLeftAlone) {
     Framed<float> d(left, 0, 0);
     Framed<std::uint8_t> s(Map<std::uint8_t>(20, 2, static_cast<std::uint8_t>(other)), 0, 0);
     Framed<float> r(right, 0, 0);
-    Arena scratch;
-    leftRightCheck(d.view(), s.view(), r.view(), 1, 0, 16, scratch, filterKernels(chooseIsa({})), 1);
+    leftRightCheck(d.view(), s.view(), r.view(), {1, 0, 16}, filterKernels(chooseIsa({})), 1);
     EXPECT_TRUE(sameBits(d.map(), left)) << "state " << static_cast<int>(other);
   }
 }
@@ -100,8 +105,7 @@ TEST(LeftRightCheck, TellsOcclusionFromMismatchFromOutOfRange) {
 
   Framed<float> d(left, 0, 0), r(right, 0, 0);
   Framed<std::uint8_t> s(testing::stateOf(left), 0, 0);
-  Arena scratch;
-  leftRightCheck(d.view(), s.view(), r.view(), 1, 0, 16, scratch, filterKernels(chooseIsa({})), 1);
+  leftRightCheck(d.view(), s.view(), r.view(), {1, 0, 16}, filterKernels(chooseIsa({})), 1);
   for (int x = 0; x < 48; ++x) {
     const PixelState expected = x < 2                           ? PixelState::kOutOfRange
                                 : x >= 17 && x < 23             ? PixelState::kOccluded

@@ -81,7 +81,7 @@ void runChecks(KernelMaterial& m, const KernelTables& tables) {
   for (int y = 0; y < m.size.height; ++y)
     std::fill_n(m.state.row(y), m.size.width, static_cast<std::uint8_t>(PixelState::kMeasured));
   leftRightCheck(m.disparity.view(), m.state.view(), m.right_disparity.view(),
-                 m.options.validation.left_right_px, 0, m.size.disparities, m.scratch, tables.filters, 1);
+                 {m.options.validation.left_right_px, 0, m.size.disparities}, tables.filters, 1);
   removeSpeckles(m.disparity.view(), m.state.view(), m.options.validation.speckle_size_px,
                  m.options.validation.speckle_step_px, m.scratch, tables.filters, 1);
 }
