@@ -13,20 +13,26 @@
 namespace pomona {
 namespace {
 
-/// Ambiguous pixels lose their disparity; so do those the mask excludes.
-void removeRejected(MatchMaps& maps, ImageView<const std::uint8_t> mask, int threads) {
+/// Ambiguous pixels of row y lose their disparity; so do those the mask excludes.
+void removeRejected(MatchMaps& maps, ImageView<const std::uint8_t> mask, int y) {
   const int width = maps.disparity.width();
-  parallelStrips(threads, maps.disparity.height(), 32, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) {
-      std::uint8_t* state = maps.state.row(y);
-      if (!mask.empty())
-        for (int x = 0; x < width; ++x)
-          if (mask.row(y)[x] == 0) state[x] = static_cast<std::uint8_t>(PixelState::kMasked);
-      for (int x = 0; x < width; ++x)
-        if (state[x] != static_cast<std::uint8_t>(PixelState::kMeasured))
-          maps.disparity.row(y)[x] = std::numeric_limits<float>::quiet_NaN();
-    }
-  });
+  std::uint8_t* state = maps.state.row(y);
+  if (!mask.empty())
+    for (int x = 0; x < width; ++x)
+      if (mask.row(y)[x] == 0) state[x] = static_cast<std::uint8_t>(PixelState::kMasked);
+  for (int x = 0; x < width; ++x)
+    if (state[x] != static_cast<std::uint8_t>(PixelState::kMeasured))
+      maps.disparity.row(y)[x] = std::numeric_limits<float>::quiet_NaN();
+}
+
+/// All that is left to be done to a row of winners without a look at another one, while the cache holds it.
+void rejectFromRow(MatchMaps& maps, const SparseStage::Settings& s, int y) {
+  if (!s.mask.empty() || s.match.winner.uniqueness_percent > 0) removeRejected(maps, s.mask, y);
+  if (s.validation.left_right_px >= 0)
+    leftRightCheckRow(maps.disparity.row(y), maps.state.row(y), maps.right_disparity.row(y),
+                      maps.disparity.width(),
+                      {s.validation.left_right_px, s.match.min_disparity, s.match.disparities},
+                      filterKernels(s.isa));
 }
 
 /// Rows [begin, end) of those columns of the pair.
@@ -61,7 +67,9 @@ void SparseStage::matchBand(const MatchInput& pair, const Settings& s, const Sea
   shifted.prior_shift_px = columns.shiftPx();
   const auto finish = [&](int row, const WinnerRow& winners) {
     const int y = begin + row;
-    if (y >= band.y && y < band.y + band.height) finishRow(winners, y, columns, options, kernels, maps_);
+    if (y < band.y || y >= band.y + band.height) return;
+    finishRow(winners, y, columns, options, kernels, maps_);
+    rejectFromRow(maps_, s, y);
   };
   matcher_.findWinners(cropped(pair, begin, end, columns), shifted, s.mutual_information, kernels, finish,
                        *s.scratch, s.threads);
@@ -73,14 +81,7 @@ void SparseStage::run(const MatchInput& pair, const Settings& s, StageClock& clo
   maps_.resize(pair.left.width, pair.left.height);
   const SearchBand whole{0, pair.left.height, s.match.min_disparity, s.match.disparities};
   for (const SearchBand& band : bands.empty() ? std::span(&whole, 1) : bands) matchBand(pair, s, band);
-  if (!s.mask.empty() || s.match.winner.uniqueness_percent > 0) removeRejected(maps_, s.mask, s.threads);
   clock.lap("matching");
-
-  if (v.left_right_px >= 0)
-    leftRightCheck(maps_.disparity.view(), maps_.state.view(), maps_.right_disparity.view(),
-                   {v.left_right_px, s.match.min_disparity, s.match.disparities}, filterKernels(s.isa),
-                   s.threads);
-  clock.lap("left-right check");
 
   if (v.speckle_size_px > 0)
     removeSpeckles(maps_.disparity.view(), maps_.state.view(), v.speckle_size_px, v.speckle_step_px,
