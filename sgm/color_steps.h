@@ -15,15 +15,15 @@ class ColorSteps {
  public:
   ColorSteps(GuideView image, const SgmKernels& kernels) : image_(image), kernels_(kernels) {}
 
-  /// Write the steps into row y for the columns -1 to width: out[0] is column -1.
-  void left(int y, std::uint8_t* out) const;
-  void aboveLeft(int y, std::uint8_t* out) const;
-  void above(int y, std::uint8_t* out) const;
-  void aboveRight(int y, std::uint8_t* out) const;
+  /// For the columns -1 to width: element 0 is column -1.
+  struct Rows {
+    std::uint8_t *left, *above;
+    std::uint8_t *above_left = nullptr, *above_right = nullptr;  ///< both or none
+  };
+  /// The steps up from row `seam`, and those to the left in row y, which is `seam` or the row above.
+  void between(int seam, int y, const Rows& out) const;
 
  private:
-  void stepsFrom(int y, int dx, int dy, std::uint8_t* out) const;
-
   GuideView image_;
   const SgmKernels& kernels_;
 };

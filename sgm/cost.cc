@@ -126,10 +126,8 @@ void MatchingCostRows::prepareSupport(const ColorSteps& steps, int color_step, A
   const auto left_steps = arena.image<std::uint8_t>(width_ + 2, height_);
   const auto above_steps = arena.image<std::uint8_t>(width_ + 2, height_);
   parallelStrips(threads, height_, 16, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) {
-      steps.left(y, left_steps.row(y));
-      steps.above(y, above_steps.row(y));
-    }
+    for (int y = begin; y < end; ++y)
+      steps.between(y, y, {.left = left_steps.row(y), .above = above_steps.row(y)});
   });
   parallelStrips(threads, height_, 16, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {

@@ -150,6 +150,16 @@ struct RefineRow {
   SubpixelCurve curve;  ///< for SubpixelMethod::kFitted
 };
 
+/// Two neighbouring rows, and the steps between their pixels: the largest difference of a channel. What it is
+/// at the ends of a row, where there is no neighbour, is of no meaning.
+struct ColorStepRows {
+  const std::uint8_t *row_above, *row;
+  int channels, width;  ///< channels: 1 or 3, interleaved
+  bool left_of_above;   ///< left[x]: of row_above, not of `row`
+  std::uint8_t *left, *above;
+  std::uint8_t *above_left, *above_right;  ///< both or none may be null
+};
+
 struct SgmKernels {
   int vector_bytes;  ///< kBytes
   /// gray[x] = (29 B + 150 G + 77 R + 128) / 256.
@@ -163,9 +173,7 @@ struct SgmKernels {
   /// out[x] = clamp(128 + S / 4, 0, 255), S the 3x3 horizontal Sobel sum over three rows readable from -1 to
   /// width.
   void (*sobel)(const std::uint8_t* const rows[3], int width, std::uint8_t* out);
-  /// out[x] = largest |a - b| over the channels (1 or 3, interleaved) of pixel x.
-  void (*colorSteps)(const std::uint8_t* a, const std::uint8_t* b, int channels, int width,
-                     std::uint8_t* out);
+  void (*colorSteps)(const ColorStepRows&);
   /// out[phase * phase_stride + m] = right[-(m * phases + phase)] for m < 64 * blocks, phase < phases.
   void (*dealRow)(const std::uint8_t* right, int phases, std::ptrdiff_t phase_stride, int blocks,
                   std::uint8_t* out);

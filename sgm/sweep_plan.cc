@@ -89,10 +89,8 @@ AggregateRow SweepPlan::row(int y, int from_row, int from_column, std::uint8_t* 
   if (adaptsPenalties()) {
     const auto room = [&](int i) { return steps + i * (stepsBytes() / 4); };
     const int seam = from_row < 0 ? y : std::min(y + 1, height() - 1);  // the row that holds the steps
-    steps_.aboveLeft(seam, room(0));
-    steps_.above(seam, room(1));
-    steps_.aboveRight(seam, room(2));
-    steps_.left(y, room(3));
+    steps_.between(seam, y,
+                   {.left = room(3), .above = room(1), .above_left = room(0), .above_right = room(2)});
     straight = room(1) + 1;
     // Upwards, (x - 1, y + 1) sees the step to (x, y) to its upper right, and (x + 1, y + 1) to its upper
     // left.

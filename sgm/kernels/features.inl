@@ -3,6 +3,8 @@
 
 #include <cstdint>
 
+#include "sgm/kernels.h"
+
 namespace {
 
 template <typename T>
@@ -39,21 +41,56 @@ void sobelRow(const std::uint8_t* const rows[3], int width, std::uint8_t* __rest
   }
 }
 
+constexpr int kColorBlock = 256;
+
+/// A block of a row's pixels and one on either side, a plane per channel. The steps to several neighbours are
+/// computed from them: taking pixels apart costs more than a step does.
 template <int kChannels>
-void colorStepRowOf(const std::uint8_t* a, const std::uint8_t* b, int width, std::uint8_t* __restrict out) {
-  for (int x = 0; x < width; ++x) {
+struct ColorPlanes {
+  std::uint8_t plane[kChannels][kColorBlock + 2] = {};
+
+  /// Column x - 1 + i becomes element i, if there is one.
+  void take(const std::uint8_t* row, int width, int x, int count) {
+    const int first = x > 0 ? 0 : 1, last = x + count < width ? count + 1 : count;
+    const std::uint8_t* __restrict from = row + kChannels * (x - 1);
+    for (int i = first; i <= last; ++i)
+      for (int c = 0; c < kChannels; ++c) plane[c][i] = from[kChannels * i + c];
+  }
+};
+
+/// The largest difference of a channel, of the elements from a_begin and from b_begin on.
+template <int kChannels>
+void stepsBetween(const ColorPlanes<kChannels>& a, int a_begin, const ColorPlanes<kChannels>& b, int b_begin,
+                  int count, std::uint8_t* __restrict out) {
+  for (int i = 0; i < count; ++i) {
     std::uint8_t step = 0;
     for (int c = 0; c < kChannels; ++c) {
-      const std::uint8_t p = a[kChannels * x + c], q = b[kChannels * x + c];
+      const std::uint8_t p = a.plane[c][a_begin + i], q = b.plane[c][b_begin + i];
       const std::uint8_t difference = static_cast<std::uint8_t>((p > q ? p : q) - (p < q ? p : q));
       step = difference > step ? difference : step;
     }
-    out[x] = step;
+    out[i] = step;
   }
 }
 
-void colorStepRow(const std::uint8_t* a, const std::uint8_t* b, int channels, int width, std::uint8_t* out) {
-  channels == 1 ? colorStepRowOf<1>(a, b, width, out) : colorStepRowOf<3>(a, b, width, out);
+template <int kChannels>
+void colorStepRowsOf(const pomona::ColorStepRows& r) {
+  ColorPlanes<kChannels> above, here;
+  const auto& beside = r.left_of_above ? above : here;
+  for (int x = 0; x < r.width; x += kColorBlock) {
+    const int count = r.width - x < kColorBlock ? r.width - x : kColorBlock;
+    above.take(r.row_above, r.width, x, count);
+    here.take(r.row, r.width, x, count);
+    stepsBetween(beside, 1, beside, 0, count, r.left + x);
+    stepsBetween(here, 1, above, 1, count, r.above + x);
+    if (r.above_left == nullptr) continue;
+    stepsBetween(here, 1, above, 0, count, r.above_left + x);
+    stepsBetween(here, 1, above, 2, count, r.above_right + x);
+  }
+}
+
+void colorStepRows(const pomona::ColorStepRows& r) {
+  r.channels == 1 ? colorStepRowsOf<1>(r) : colorStepRowsOf<3>(r);
 }
 
 }  // namespace
