@@ -154,6 +154,7 @@ struct RefineRow {
 /// at the ends of a row, where there is no neighbour, is of no meaning.
 struct ColorStepRows {
   const std::uint8_t *row_above, *row;
+  const std::uint8_t* ahead;  ///< the row to be asked for next
   int channels, width;  ///< channels: 1 or 3, interleaved
   bool left_of_above;   ///< left[x]: of row_above, not of `row`
   std::uint8_t *left, *above;

@@ -79,6 +79,7 @@ void colorStepRowsOf(const pomona::ColorStepRows& r) {
   const auto& beside = r.left_of_above ? above : here;
   for (int x = 0; x < r.width; x += kColorBlock) {
     const int count = r.width - x < kColorBlock ? r.width - x : kColorBlock;
+    for (int i = 0; i < kChannels * count; i += 64) __builtin_prefetch(r.ahead + kChannels * x + i);
     above.take(r.row_above, r.width, x, count);
     here.take(r.row, r.width, x, count);
     stepsBetween(beside, 1, beside, 0, count, r.left + x);
