@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/parallel.h"
+#include "core/prefetch.h"
 
 namespace pomona {
 namespace {
@@ -32,6 +33,8 @@ ImageView<const T> viewOf(const cv::Mat& m) {
   return {m.ptr<T>(), m.cols * m.channels(), m.rows, static_cast<std::ptrdiff_t>(m.step1())};
 }
 
+constexpr int kGrayBlock = 256;
+
 template <typename T>
 ImageView<const T> grayOf(const cv::Mat& image, Image<T>& buffer, void (*to_gray)(const T*, int, T*),
                           int threads) {
@@ -39,7 +42,12 @@ ImageView<const T> grayOf(const cv::Mat& image, Image<T>& buffer, void (*to_gray
   if (image.channels() == 1) return in;
   buffer.resize(image.cols, image.rows);
   parallelStrips(threads, image.rows, 32, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) to_gray(in.row(y), image.cols, buffer.row(y));
+    for (int y = begin; y < end; ++y)
+      for (int x = 0; x < image.cols; x += kGrayBlock) {
+        const int count = std::min(kGrayBlock, image.cols - x);
+        prefetch(in, y + 1, 3 * x, 3 * count);
+        to_gray(in.row(y) + 3 * x, count, buffer.row(y) + x);
+      }
   });
   return buffer.view();
 }

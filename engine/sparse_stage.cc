@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/parallel.h"
+#include "core/prefetch.h"
 #include "filters/left_right.h"
 #include "filters/median.h"
 #include "filters/speckle.h"

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/parallel.h"
+#include "core/prefetch.h"
 #include "pomona/pixel_state.h"
 
 namespace pomona {
@@ -79,8 +80,12 @@ Trust::Maps Trust::estimate(MatchMaps& maps, int largest_cost_sum, const FilterK
       for (int x = 0; x < width; x += kMatchChunk) visit(x, std::min(kMatchChunk, width - x));
     };
     for (int y = y_begin; y < y_end; ++y) {
-      forEachChunk(
-          [&](int x, int count) { trustCodes(maps, largest_cost_sum, y, x, count, kernels, codes + x); });
+      forEachChunk([&](int x, int count) {
+        prefetch(maps.disparity.view(), y + 1, x, count);
+        prefetch(maps.right_disparity.view(), y + 1, x, count);
+        prefetch(maps.scores.view(), y + 1, 2 * x, 2 * count);  // margins and curvatures
+        trustCodes(maps, largest_cost_sum, y, x, count, kernels, codes + x);
+      });
       forEachChunk([&](int x, int count) {
         kernels.trustPairs(pairs_.data(), codes + x, maps.state.row(y) + x,
                            static_cast<std::uint8_t>(PixelState::kMeasured), count,

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/parallel.h"
+#include "core/prefetch.h"
 
 namespace pomona {
 namespace {
@@ -58,6 +59,7 @@ void medianFilter(ImageView<const float> in, ImageView<float> out, int size, con
     const RowRing ring = ringOf(strip);
     for (int y = strip * kStripRows; y < ring.end; ++y) {
       if (y + radius < ring.end) ring.read(y + radius);
+      prefetchRow(in, y + radius + 1);
       const float* rows[2 * kMostRadius + 1];
       for (int i = 0; i < size; ++i) rows[i] = ring.row(y + i - radius);
       median_row(rows, in.width, out.row(y));
