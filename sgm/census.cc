@@ -11,6 +11,7 @@ namespace pomona {
 namespace {
 
 constexpr int kMarginX = 4, kMarginY = 3;  // of the largest window, 9x7
+constexpr int kRing = 8;                   // rows that are kept padded, at least those of a window
 
 struct Offset {
   int dx, dy;
@@ -92,15 +93,15 @@ CensusPlanes computeCensus(ImageView<const T> gray, MatchingCost cost, const Sgm
   for (int p = 0; p < out.planes; ++p) out.plane[p] = arena.image<std::uint8_t>(width, height);
 
   const Arena::Scope scope(arena);
-  const auto padded = arena.image<T>(width + 2 * kMarginX, height + 2 * kMarginY);
-  parallelStrips(threads, padded.height, 32, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y)
-      padRow(gray.row(std::clamp(y - kMarginY, 0, height - 1)), width, padded.row(y));
-  });
-
-  parallelStrips(threads, height, 8, [&](int begin, int end) {
+  // A ring of rows for every strip, where its own would be: they stay in the cache.
+  const auto padded = arena.image<T>(width + 2 * kMarginX, std::max(height, kRing));
+  parallelStrips(threads, height, kRing, [&](int begin, int end) {
+    const auto paddedRow = [&](int y) { return padded.row(begin + (y - begin + kMarginY) % kRing); };
+    const auto pad = [&](int y) { padRow(gray.row(std::clamp(y, 0, height - 1)), width, paddedRow(y)); };
+    for (int y = begin - kMarginY; y < begin + kMarginY; ++y) pad(y);
     for (int y = begin; y < end; ++y) {
-      const auto at = [&](Offset o) { return padded.row(y + kMarginY + o.dy) + kMarginX + o.dx; };
+      pad(y + kMarginY);
+      const auto at = [&](Offset o) { return paddedRow(y + o.dy) + kMarginX + o.dx; };
       for (int p = 0; p < out.planes; ++p) {
         const T *a[8], *b[8];
         for (int k = 0; k < 8; ++k) {

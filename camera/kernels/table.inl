@@ -5,14 +5,34 @@
 namespace pomona {
 namespace {
 
-template <typename T>
-void interpolateRows(const WeightedRows<T>& rows, int begin, int end, T* __restrict out) {
-  const T *a = rows.row[0], *b = rows.row[1], *c = rows.row[2], *d = rows.row[3];
+/// In words: with weights of 64 coarse + fine, both sums fit, and the mean is (coarse + fine / 64) / 64.
+void interpolateRows8(const WeightedRows<std::uint8_t>& rows, int begin, int end,
+                      std::uint8_t* __restrict out) {
+  static_assert(kRowWeights == 64 * 64);
+  const std::uint8_t *a = rows.row[0], *b = rows.row[1], *c = rows.row[2], *d = rows.row[3];
+  short coarse[4], fine[4];
+  for (int i = 0; i < 4; ++i) {
+    fine[i] = static_cast<short>(((rows.weight[i] + 32) & 63) - 32);
+    coarse[i] = static_cast<short>((rows.weight[i] - fine[i]) / 64);
+  }
+  const short ca = coarse[0], cb = coarse[1], cc = coarse[2], cd = coarse[3];
+  const short fa = fine[0], fb = fine[1], fc = fine[2], fd = fine[3];
+  for (int x = begin; x < end; ++x) {
+    const short high = static_cast<short>(ca * a[x] + cb * b[x] + cc * c[x] + cd * d[x]);
+    const short low = static_cast<short>(fa * a[x] + fb * b[x] + fc * c[x] + fd * d[x]);
+    const short mean = static_cast<short>(static_cast<short>(high + (low >> 6) + 32) >> 6);
+    out[x] = static_cast<std::uint8_t>(mean < 0 ? 0 : mean > 255 ? 255 : mean);
+  }
+}
+
+void interpolateRows16(const WeightedRows<std::uint16_t>& rows, int begin, int end,
+                       std::uint16_t* __restrict out) {
+  const std::uint16_t *a = rows.row[0], *b = rows.row[1], *c = rows.row[2], *d = rows.row[3];
   const int wa = rows.weight[0], wb = rows.weight[1], wc = rows.weight[2], wd = rows.weight[3];
-  constexpr int kMost = static_cast<T>(-1);
+  constexpr int kMost = 65535;
   for (int x = begin; x < end; ++x) {
     const int mean = (wa * a[x] + wb * b[x] + wc * c[x] + wd * d[x] + kRowWeights / 2) / kRowWeights;
-    out[x] = static_cast<T>(mean < 0 ? 0 : mean > kMost ? kMost : mean);
+    out[x] = static_cast<std::uint16_t>(mean < 0 ? 0 : mean > kMost ? kMost : mean);
   }
 }
 
@@ -52,8 +72,8 @@ void contrastRow(const std::uint8_t* above, const std::uint8_t* here, const std:
   for (int x = width > 2 * kReach ? width - kReach : kReach; x < width; ++x) out[x] = atBorder(x);
 }
 
-constexpr CameraKernels kTable = {.interpolate8 = interpolateRows<std::uint8_t>,
-                                  .interpolate16 = interpolateRows<std::uint16_t>,
+constexpr CameraKernels kTable = {.interpolate8 = interpolateRows8,
+                                  .interpolate16 = interpolateRows16,
                                   .reduceBlocks = reduceBlocks,
                                   .contrast = contrastRow};
 

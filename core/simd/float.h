@@ -156,6 +156,27 @@ inline void gatherRow(const float* from, const std::int32_t* index, int count, f
   for (; i + kFloatLanes <= count; i += kFloatLanes) store(out + i, floatsOf(gather(from, load(index + i))));
   for (; i < count; ++i) out[i] = from[index[i]];
 }
+/// first[i] and second[i]: from[index[i]] and the element after it.
+inline void gatherPairs(const float* from, const std::int32_t* index, int count, float* __restrict first,
+                        float* __restrict second) {
+  int i = 0;
+#if defined(__AVX512F__)
+  const __m512i evens = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
+  const __m512i odds = _mm512_add_epi32(evens, _mm512_set1_epi32(1));
+  for (; i + kFloatLanes <= count; i += kFloatLanes) {
+    const auto pairsAt = [&](int k) {
+      __m256i at;
+      __builtin_memcpy(&at, index + k, sizeof at);
+      return _mm512_i32gather_epi64(at, from, 4);
+    };
+    const __m512i low = pairsAt(i), high = pairsAt(i + kFloatLanes / 2);
+    store(first + i, reinterpret_cast<Floats>(_mm512_permutex2var_epi32(low, evens, high)));
+    store(second + i, reinterpret_cast<Floats>(_mm512_permutex2var_epi32(low, odds, high)));
+  }
+#endif
+  gatherRow(from, index + i, count - i, first + i);
+  gatherRow(from + 1, index + i, count - i, second + i);
+}
 
 }  // namespace
 }  // namespace pomona

@@ -29,8 +29,7 @@ inline void trustPairsOf(const TrustPair* of_code, const std::uint16_t* codes, c
                          float* __restrict sigma_px) {
   std::int32_t index[kMatchChunk];
   for (int i = 0; i < count; ++i) index[i] = 2 * (state[i] == measured ? codes[i] : kTrustCodes + state[i]);
-  gatherRow(&of_code->confidence, index, count, confidence);
-  gatherRow(&of_code->sigma_px, index, count, sigma_px);
+  gatherPairs(&of_code->confidence, index, count, confidence, sigma_px);
 }
 
 }  // namespace
