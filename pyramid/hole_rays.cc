@@ -3,19 +3,13 @@
 #include <algorithm>
 
 #include "core/parallel.h"
-#include "pomona/pixel_state.h"
+#include "pyramid/hole_states.h"
 
 namespace pomona {
 namespace {
 
 constexpr std::size_t kRowRays = 2;  // kRays[0] and [1]
 constexpr int kMinRowsPerStrip = 16;
-
-constexpr std::uint8_t code(PixelState s) {
-  return static_cast<std::uint8_t>(s);
-}
-constexpr HoleStates kHoleStates = {code(PixelState::kMeasured), code(PixelState::kFilledPlane),
-                                    code(PixelState::kOccluded), code(PixelState::kMasked)};
 
 }  // namespace
 

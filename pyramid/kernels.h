@@ -15,7 +15,7 @@ constexpr int kHoleRays = 4;
 /// Most holes that one call of a kernel takes.
 constexpr int kHoleBatch = 64;
 
-/// Values of the state, see findHoles.
+/// Values of the state, see findHoles and countSourcesAndHoles.
 struct HoleStates {
   std::uint8_t measured, plane, missing, masked;
 };
@@ -94,8 +94,8 @@ struct PyramidKernels {
   void (*largestDifference3)(const std::uint8_t* a, const std::uint8_t* b, int n, std::uint8_t* out);
   /// sums[i] += 1 if state[i] is `measured` and disparity[i] not NaN; += 256 if it is `measured` but NaN, or
   /// at least `missing` but not `masked`.
-  void (*countSourcesAndHoles)(const float* disparity, const std::uint8_t* state, std::uint8_t measured,
-                               std::uint8_t missing, std::uint8_t masked, int n, std::uint16_t* sums);
+  void (*countSourcesAndHoles)(const float* disparity, const std::uint8_t* state, HoleStates states, int n,
+                               std::uint16_t* sums);
   /// How many of n points have |((a x + b y) + c) - d| < tolerance.
   int (*countNearPlane)(const float* x, const float* y, const float* d, int n, float a, float b, float c,
                         float tolerance);

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/parallel.h"
-#include "pomona/pixel_state.h"
+#include "pyramid/hole_states.h"
 
 namespace pomona {
 namespace {
@@ -40,12 +40,9 @@ void SegmentCells::count(ImageView<const float> disparity, ImageView<const std::
 
 void SegmentCells::countRow(int row, ImageView<const float> disparity, ImageView<const std::uint8_t> state,
                             const PyramidKernels& kernels, std::uint16_t* sums) {
-  constexpr auto code = [](PixelState s) { return static_cast<std::uint8_t>(s); };
   std::fill_n(sums, disparity.width, std::uint16_t{0});
   for (int y = row_begin_[row]; y < row_begin_[row + 1]; ++y)
-    kernels.countSourcesAndHoles(disparity.row(y), state.row(y), code(PixelState::kMeasured),
-                                 code(PixelState::kOccluded), code(PixelState::kMasked), disparity.width,
-                                 sums);
+    kernels.countSourcesAndHoles(disparity.row(y), state.row(y), kHoleStates, disparity.width, sums);
   const std::size_t first = index({0, static_cast<std::uint16_t>(row)});
   for (int i = 0; i < columns_; ++i) {
     int sum = 0;

@@ -18,12 +18,12 @@ void largestDifference3(const std::uint8_t* a, const std::uint8_t* b, int n, std
   }
 }
 
-void countSourcesAndHoles(const float* disparity, const std::uint8_t* state, std::uint8_t measured,
-                          std::uint8_t missing, std::uint8_t masked, int n, std::uint16_t* __restrict sums) {
+void countSourcesAndHoles(const float* disparity, const std::uint8_t* state, HoleStates states, int n,
+                          std::uint16_t* __restrict sums) {
   for (int i = 0; i < n; ++i) {
     const int known = disparity[i] == disparity[i];
-    const int is_measured = state[i] == measured;
-    const int is_missing = (state[i] >= missing) & (state[i] != masked);
+    const int is_measured = state[i] == states.measured;
+    const int is_missing = (state[i] >= states.missing) & (state[i] != states.masked);
     const int is_hole = (is_measured & (known ^ 1)) | is_missing;
     sums[i] = static_cast<std::uint16_t>(sums[i] + (is_measured & known) + 256 * is_hole);
   }
