@@ -58,12 +58,10 @@ POMONA_OP U8 popcount(U8 a) {  // two 16-entry table look-ups, one per nibble
 }
 
 POMONA_OP U8 previousLane(U8 v) {
-  const U8 shifted = _mm256_alignr_epi8(v, _mm256_permute2x128_si256(v, v, 0x08), 15);
-  return _mm256_or_si256(shifted, _mm256_setr_epi32(255, 0, 0, 0, 0, 0, 0, 0));
+  return _mm256_alignr_epi8(v, _mm256_permute2x128_si256(v, _mm256_set1_epi8(-1), 0x02), 15);
 }
 POMONA_OP U8 nextLane(U8 v) {
-  const U8 shifted = _mm256_alignr_epi8(_mm256_permute2x128_si256(v, v, 0x81), v, 1);
-  return _mm256_or_si256(shifted, _mm256_setr_epi32(0, 0, 0, 0, 0, 0, 0, static_cast<int>(0xFF000000u)));
+  return _mm256_alignr_epi8(_mm256_permute2x128_si256(v, _mm256_set1_epi8(-1), 0x21), v, 1);
 }
 
 using Minima = __m256i;  // 64-bit parts hold, in every byte, the minima of a, c, b, d
@@ -72,8 +70,12 @@ POMONA_OP Minima minima(U8 a, U8 b, U8 c, U8 d) {
   const U8 cd = min(_mm256_blend_epi32(c, d, 0xF0), _mm256_permute2x128_si256(c, d, 0x21));
   U8 m = min(_mm256_unpacklo_epi64(ab, cd), _mm256_unpackhi_epi64(ab, cd));
   m = min(m, _mm256_shuffle_epi32(m, 0xB1));
-  m = min(m, _mm256_or_si256(_mm256_slli_epi32(m, 16), _mm256_srli_epi32(m, 16)));
-  return min(m, _mm256_or_si256(_mm256_slli_epi32(m, 8), _mm256_srli_epi32(m, 24)));
+  const __m256i by_two = _mm256_setr_epi8(2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13,  //
+                                          2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13);
+  const __m256i by_one = _mm256_setr_epi8(1, 0, 3, 2, 5, 4, 7, 6, 9, 8, 11, 10, 13, 12, 15, 14,  //
+                                          1, 0, 3, 2, 5, 4, 7, 6, 9, 8, 11, 10, 13, 12, 15, 14);
+  m = min(m, _mm256_shuffle_epi8(m, by_two));
+  return min(m, _mm256_shuffle_epi8(m, by_one));
 }
 POMONA_OP void storeMinima(std::uint32_t* p, Minima m) {
   const __m256i picked = _mm256_permutevar8x32_epi32(m, _mm256_setr_epi32(0, 4, 2, 6, 0, 0, 0, 0));
