@@ -41,7 +41,7 @@ void check(const CheckArguments& arguments) {
   RowCheck row_check;
   const RowOffsets rows =
       row_check.measure(left, right, arguments.min_disparity, end - arguments.min_disparity,
-                        cameraKernels(chooseIsa({})), kReach_px);
+                        cameraKernels(chooseIsa({})), availableThreads(), kReach_px);
   std::cout << "points    " << rows.points << " matched\n";
   if (std::isnan(rows.median_px)) {
     std::cout << "rows      unknown: fewer than 10 points have a match within " << kReach_px

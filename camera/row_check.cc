@@ -6,7 +6,10 @@
 #include <cstdlib>
 #include <limits>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <utility>
+
+#include "core/parallel.h"
 
 namespace pomona {
 namespace {
@@ -205,48 +208,60 @@ RowOffsets summary(const Match* matches, int count, int width, int height) {
 
 }  // namespace
 
-void RowCheck::reduce(ImageView<const std::uint8_t> in, int scale, View& view, const CameraKernels& kernels) {
+void RowCheck::reduce(ImageView<const std::uint8_t> in, int scale, View& view, const CameraKernels& kernels,
+                      int threads) {
+  constexpr int kFewestRows = 32;
   const int width = in.width / scale, height = in.height / scale;
   view.coarse.resize(width, height);
   view.contrast.resize(width, height);
-  for (int y = 0; y < height; ++y)
-    kernels.reduceBlocks(in.row(y * scale), in.stride, scale, width, view.coarse.row(y));
-  for (int y = 0; y < height; ++y) {
-    const std::uint8_t *above = view.coarse.row(std::max(0, y - kContrastReach)),
-                       *below = view.coarse.row(std::min(height - 1, y + kContrastReach));
-    kernels.contrast(above, view.coarse.row(y), below, width, view.contrast.row(y));
-  }
+  parallelStrips(threads, height, kFewestRows, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y)
+      kernels.reduceBlocks(in.row(y * scale), in.stride, scale, width, view.coarse.row(y));
+  });
+  parallelStrips(threads, height, kFewestRows, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      const std::uint8_t *above = view.coarse.row(std::max(0, y - kContrastReach)),
+                         *below = view.coarse.row(std::min(height - 1, y + kContrastReach));
+      kernels.contrast(above, view.coarse.row(y), below, width, view.contrast.row(y));
+    }
+  });
 }
 
 RowOffsets RowCheck::measure(Bytes left, Bytes right, int min_disparity, int num_disparities,
-                             const CameraKernels& kernels, int reach_px) {
+                             const CameraKernels& kernels, int threads, int reach_px) {
   const int scale = left.width >= 800 ? 4 : left.width >= 400 ? 2 : 1;
   const int reach = std::max(1, reach_px / scale);
-  reduce(left, scale, left_, kernels);
-  reduce(right, scale, right_, kernels);
+  reduce(left, scale, left_, kernels, threads);
+  reduce(right, scale, right_, kernels, threads);
   const Bytes left_contrast = std::as_const(left_.contrast).view(),
               right_contrast = std::as_const(right_.contrast).view();
   const Bytes left_coarse = std::as_const(left_.coarse).view(),
               right_coarse = std::as_const(right_.coarse).view();
   const Range disparities{min_disparity / scale - 1, (min_disparity + num_disparities) / scale + 2};
 
-  std::array<Match, kColumns * kRows> matches;
-  int count = 0;
-  for (int cell = 0; cell < kColumns * kRows; ++cell) {
+  const auto matchIn = [&](int cell) -> std::optional<Match> {
     int x = 0, y = 0, right_x = 0, right_y = 0;
-    if (!findTexture(left_contrast, cell, kBlock / 2 + reach, x, y)) continue;
-    if (!search(left_contrast, right_contrast, x, y, disparities, reach, right_x, right_y)) continue;
+    if (!findTexture(left_contrast, cell, kBlock / 2 + reach, x, y)) return {};
+    if (!search(left_contrast, right_contrast, x, y, disparities, reach, right_x, right_y)) return {};
     Place place{static_cast<float>(right_x), static_cast<float>(right_y)};
-    if (!settle(left_coarse, right_coarse, x, y, place)) continue;
+    if (!settle(left_coarse, right_coarse, x, y, place)) return {};
     // The centre of a reduced pixel lies between full ones: take the one above and to the left of it.
     const int full_x = x * scale + (scale - 1) / 2, full_y = y * scale + (scale - 1) / 2;
     const auto s = static_cast<float>(scale);
     Place full{static_cast<float>(full_x) + s * (place.x - static_cast<float>(x)),
                static_cast<float>(full_y) + s * (place.y - static_cast<float>(y))};
-    if (!settle(left, right, full_x, full_y, full)) continue;
-    matches[static_cast<std::size_t>(count++)] = {{static_cast<float>(full_x), static_cast<float>(full_y)},
-                                                  full};
-  }
+    if (!settle(left, right, full_x, full_y, full)) return {};
+    return Match{{static_cast<float>(full_x), static_cast<float>(full_y)}, full};
+  };
+  std::array<std::optional<Match>, kColumns * kRows> found;
+  parallelFor(threads, kRows, [&](int row) {
+    for (int cell = row * kColumns; cell < (row + 1) * kColumns; ++cell)
+      found[static_cast<std::size_t>(cell)] = matchIn(cell);
+  });
+  std::array<Match, kColumns * kRows> matches;
+  int count = 0;
+  for (const std::optional<Match>& match : found)
+    if (match) matches[static_cast<std::size_t>(count++)] = *match;
   return summary(matches.data(), count, left.width, left.height);
 }
 

@@ -31,14 +31,15 @@ struct RowOffsets {
 
 /// Matches up to 160 well-textured points of the left view in two dimensions: by sums of absolute differences
 /// in views reduced to a quarter (a half below 800 px of width, not at all below 400), then by Lucas &
-/// Kanade's method (1981) there and at full size. One thread computes, so that the result is the same
-/// anywhere; keeps its memory between frames.
+/// Kanade's method (1981) there and at full size. The result does not depend on the number of threads. Keeps
+/// its memory between frames.
 class RowCheck {
  public:
   /// `left`, `right`: gray, of equal size. Disparities are looked for from `min_disparity` on,
   /// `num_disparities` of them, and rows up to `reach_px` up and down; the time grows with both.
   RowOffsets measure(ImageView<const std::uint8_t> left, ImageView<const std::uint8_t> right,
-                     int min_disparity, int num_disparities, const CameraKernels& kernels, int reach_px = 8);
+                     int min_disparity, int num_disparities, const CameraKernels& kernels, int threads,
+                     int reach_px = 8);
 
  private:
   struct View {
@@ -46,7 +47,8 @@ class RowCheck {
     Image<std::uint8_t>
         contrast;  // 128 + what stands out from its surroundings, for matching across exposures
   };
-  static void reduce(ImageView<const std::uint8_t> in, int scale, View& view, const CameraKernels& kernels);
+  static void reduce(ImageView<const std::uint8_t> in, int scale, View& view, const CameraKernels& kernels,
+                     int threads);
 
   View left_, right_;
 };

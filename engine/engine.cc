@@ -69,7 +69,7 @@ cv::Mat StereoEngine::State::rectify(const cv::Mat& left_view, const cv::Mat& ri
 
 RowOffsets StereoEngine::State::checkRows() {
   const RowOffsets rows = row_check.measure(input.views().left, input.views().right, options.min_disparity,
-                                            options.num_disparities, cameraKernels(isa));
+                                            options.num_disparities, cameraKernels(isa), threads);
   result.row_offset_px = rows.median_px;
   result.row_error_px = rows.worst_px;
   return rows;

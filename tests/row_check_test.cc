@@ -54,7 +54,7 @@ const Views& scene(int width, int height) {
 RowOffsets measure(const cv::Mat& left, const cv::Mat& right, int min_disparity, int num_disparities) {
   RowCheck check;
   return check.measure(viewOf(left), viewOf(right), min_disparity, num_disparities,
-                       cameraKernels(chooseIsa({})));
+                       cameraKernels(chooseIsa({})), 1);
 }
 
 TEST(RowCheck, FindsTheOffsetThatWasPutIn) {
@@ -74,8 +74,8 @@ TEST(RowCheck, LooksAsFarAsItIsTold) {
   const cv::Mat right = moved(views.right, 23);
   RowCheck check;
   EXPECT_NEAR(
-      check.measure(viewOf(views.left), viewOf(right), 0, 64, cameraKernels(chooseIsa({})), 40).median_px, 23,
-      0.1);
+      check.measure(viewOf(views.left), viewOf(right), 0, 64, cameraKernels(chooseIsa({})), 1, 40).median_px,
+      23, 0.1);
 }
 
 TEST(RowCheck, NoticesATurnedCamera) {
@@ -112,26 +112,29 @@ TEST(RowCheck, SaysNothingWithoutTextureOrOverlap) {
 TEST(RowCheck, KeepsNothingFromTheFrameBefore) {
   const auto& [left, right] = scene(640, 480);
   RowCheck check;
-  const RowOffsets first = check.measure(viewOf(left), viewOf(right), 0, 64, cameraKernels(chooseIsa({})));
-  check.measure(viewOf(right), viewOf(left), -64, 64, cameraKernels(chooseIsa({})));
-  const RowOffsets again = check.measure(viewOf(left), viewOf(right), 0, 64, cameraKernels(chooseIsa({})));
+  const RowOffsets first = check.measure(viewOf(left), viewOf(right), 0, 64, cameraKernels(chooseIsa({})), 1);
+  check.measure(viewOf(right), viewOf(left), -64, 64, cameraKernels(chooseIsa({})), 1);
+  const RowOffsets again = check.measure(viewOf(left), viewOf(right), 0, 64, cameraKernels(chooseIsa({})), 1);
   EXPECT_EQ(first.median_px, again.median_px);
   EXPECT_EQ(first.worst_px, again.worst_px);
   EXPECT_EQ(first.points, again.points);
 }
 
-TEST(RowCheck, IsTheSameOnEveryInstructionSet) {
+TEST(RowCheck, IsTheSameOnEveryInstructionSetAndForEveryThreadCount) {
   for (const auto& [width, height] : {std::pair(1281, 720), std::pair(643, 480), std::pair(350, 240)}) {
     const auto& [left, right] = scene(width, height);
     RowCheck check;
     const RowOffsets expected =
-        check.measure(viewOf(left), viewOf(right), 0, width / 10, cameraKernels(Isa::kScalar));
+        check.measure(viewOf(left), viewOf(right), 0, width / 10, cameraKernels(Isa::kScalar), 1);
     EXPECT_GE(expected.points, 10);
     for (const Isa isa : usableIsas()) {
-      const RowOffsets r = check.measure(viewOf(left), viewOf(right), 0, width / 10, cameraKernels(isa));
-      EXPECT_EQ(r.median_px, expected.median_px) << name(isa) << ' ' << width;
-      EXPECT_EQ(r.worst_px, expected.worst_px) << name(isa) << ' ' << width;
-      EXPECT_EQ(r.points, expected.points) << name(isa) << ' ' << width;
+      for (const int threads : {1, 2, 16}) {
+        const RowOffsets r =
+            check.measure(viewOf(left), viewOf(right), 0, width / 10, cameraKernels(isa), threads);
+        EXPECT_EQ(r.median_px, expected.median_px) << name(isa) << ' ' << width << ' ' << threads;
+        EXPECT_EQ(r.worst_px, expected.worst_px) << name(isa) << ' ' << width << ' ' << threads;
+        EXPECT_EQ(r.points, expected.points) << name(isa) << ' ' << width << ' ' << threads;
+      }
     }
   }
 }
