@@ -30,10 +30,9 @@ void removeRejected(MatchMaps& maps, ImageView<const std::uint8_t> mask, int y) 
 void rejectFromRow(MatchMaps& maps, const SparseStage::Settings& s, int y) {
   if (!s.mask.empty() || s.match.winner.uniqueness_percent > 0) removeRejected(maps, s.mask, y);
   if (s.validation.left_right_px >= 0)
-    leftRightCheckRow(maps.disparity.row(y), maps.state.row(y), maps.right_disparity.row(y),
-                      maps.disparity.width(),
-                      {s.validation.left_right_px, s.match.min_disparity, s.match.disparities},
-                      filterKernels(s.isa));
+    leftRightCheckRow(
+        maps.disparity.row(y), maps.state.row(y), maps.right_disparity.row(y), maps.disparity.width(),
+        {s.validation.left_right_px, s.match.min_disparity, s.match.disparities}, filterKernels(s.isa));
 }
 
 /// Rows [begin, end) of those columns of the pair.

@@ -155,8 +155,8 @@ struct RefineRow {
 struct ColorStepRows {
   const std::uint8_t *row_above, *row;
   const std::uint8_t* ahead;  ///< the row to be asked for next
-  int channels, width;  ///< channels: 1 or 3, interleaved
-  bool left_of_above;   ///< left[x]: of row_above, not of `row`
+  int channels, width;        ///< channels: 1 or 3, interleaved
+  bool left_of_above;         ///< left[x]: of row_above, not of `row`
   std::uint8_t *left, *above;
   std::uint8_t *above_left, *above_right;  ///< both or none may be null
 };

@@ -36,8 +36,8 @@ void expectTwin(const Map<float>& left, const Map<std::uint8_t>& state, const Ma
       for (int margin : {0, 3}) {
         SCOPED_TRACE(::testing::Message()
                      << left.width << 'x' << left.height << " threshold " << limits.threshold_px
-                     << " disparities from " << limits.min_disparity << ", " << limits.disparities
-                     << "; isa " << name(isa) << " threads " << threads << " margin " << margin);
+                     << " disparities from " << limits.min_disparity << ", " << limits.disparities << "; isa "
+                     << name(isa) << " threads " << threads << " margin " << margin);
         Framed<float> d(left, margin, 5.0f), r(right, margin, 5.0f);
         Framed<std::uint8_t> s(state, margin, 0);
         leftRightCheck(d.view(), s.view(), r.view(), limits, filterKernels(isa), threads);

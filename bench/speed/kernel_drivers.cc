@@ -33,7 +33,7 @@ void runDeepInput(KernelMaterial& m, const KernelTables& tables) {
 
 void runRows(KernelMaterial& m, const KernelTables& tables) {
   const MatchInput& in = m.input.views();
-  m.row_check.measure(in.left, in.right, 0, m.size.disparities, tables.camera);
+  m.row_check.measure(in.left, in.right, 0, m.size.disparities, tables.camera, 1);
   alignRows(in.right, {0.3f, 0, 0}, m.moved, tables.camera, 1);
   alignRows(std::as_const(m.right16).view(), {0.3f, 0, 0}, m.moved16, tables.camera, 1);
 }

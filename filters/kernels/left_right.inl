@@ -21,8 +21,8 @@ inline void matchesOf(const MatchedPixels& p, std::int32_t* __restrict column, f
 }
 
 /// Whether left columns' epipolar lines meet the right map: of those from `first` on, as far as the right
-/// columns seen so far can tell. No more of them are kept than a chunk and the range have, so that they stay in
-/// the first-level cache however wide the row is.
+/// columns seen so far can tell. No more of them are kept than a chunk and the range have, so that they stay
+/// in the first-level cache however wide the row is.
 struct MetColumns {
   static constexpr int kRoom = kMatchChunk + kMostCheckedDisparities;
   int first = 0;
@@ -76,7 +76,7 @@ inline void markMetColumns(const LeftRightRow& p, int q_begin, int q_end, MetCol
     for (int i = 0; i < count; ++i) begins[a[i]] = ends[b[i]] = 1;
     if (p.tolerance_px == 1.0f) continue;  // there are three columns at most
     for (int i = 0; i < count; ++i)
-      for (int x = a[i] + 2; x < b[i]; ++x) ends[x] = 1;
+      for (int x = a[i] + 2; x < b[i]; x += 2) begins[x] = 1;
   }
 }
 
@@ -106,7 +106,8 @@ inline void leftRightRow(const LeftRightRow& p) {
       rejected[i] = (disparity[i] == disparity[i]) & !((column[i] >= 0) & (difference[i] <= threshold_px));
     }
     for (int i = 0; i < count; ++i) {
-      const std::uint8_t inside = met.has(i) ? mismatched : occluded, reason = outside[i] ? out_of_range : inside;
+      const std::uint8_t inside = met.has(i) ? mismatched : occluded,
+                         reason = outside[i] ? out_of_range : inside;
       rejected[i] = rejected[i] & (state[i] == measured);
       state[i] = rejected[i] ? reason : state[i];
     }
