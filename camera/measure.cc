@@ -20,7 +20,7 @@ namespace {
 constexpr double kNearShapeError = 0.01, kCenterShapeError = 0.06;
 
 // To be believed: a sphere's score; and how much was seen of it, or of any surface.
-constexpr double kLeastScore = 0.05, kLeastSeen = 0.2, kOnSphere_px = 1;
+constexpr double kLeastScore = 0.075, kLeastSeen = 0.2, kOnSphere_px = 1;
 
 constexpr int kSamplesToVote = 250, kSamplesToFit = 600;
 
