@@ -39,10 +39,17 @@ void check(const CheckArguments& arguments) {
                       ? arguments.max_disparity
                       : arguments.min_disparity + std::max(16, left.width / kUsualShare);
   RowCheck row_check;
-  const RowOffsets rows =
-      row_check.measure(left, right, arguments.min_disparity, end - arguments.min_disparity,
-                        cameraKernels(chooseIsa({})), kReach_px);
+  const auto measure = [&](auto first, auto second) {
+    return row_check.measure(first, second, arguments.min_disparity, end - arguments.min_disparity,
+                             cameraKernels(chooseIsa({})), kReach_px);
+  };
+  const RowOffsets rows = measure(left, right), exchanged = measure(right, left);
   std::cout << "points    " << rows.points << " matched\n";
+  if (seemExchanged(rows, exchanged)) {
+    std::cout << "verdict   the views seem to be exchanged: with the second one as the left one, "
+              << exchanged.points << " points match\n";
+    throw CLI::RuntimeError(kNotAligned);
+  }
   if (std::isnan(rows.median_px)) {
     std::cout << "rows      unknown: fewer than 10 points have a match within " << kReach_px
               << " px of their row\n";
@@ -68,8 +75,8 @@ void check(const CheckArguments& arguments) {
 void addCheck(CLI::App& app) {
   CLI::App* verb =
       app.add_subcommand("check",
-                         "Measure whether the rows of a rectified pair match: exit status 3 if not, or if "
-                         "that cannot be told");
+                         "Measure whether the rows of a rectified pair match: exit status 3 if not, if the "
+                         "views seem to be exchanged, or if that cannot be told");
   const auto arguments = std::make_shared<CheckArguments>();  // lives as long as the callback
   verb->add_option("left", arguments->left, "Left image")->required();
   verb->add_option("right", arguments->right, "Right image")->required();
