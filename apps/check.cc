@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -24,10 +25,15 @@ constexpr int kNotAligned = 3;  // exit status
 
 struct CheckArguments {
   std::string left, right;
-  int min_disparity = 0, max_disparity = 0;
+  int min_disparity = 0;
+  std::optional<int> max_disparity;
 };
 
 void check(const CheckArguments& arguments) {
+  if (arguments.max_disparity && *arguments.max_disparity <= arguments.min_disparity)
+    throw std::invalid_argument("--max-disparity is " + std::to_string(*arguments.max_disparity) +
+                                "; allowed: above --min-disparity, " +
+                                std::to_string(arguments.min_disparity));
   const MutedErrorStream muted;
   const auto [left_view, right_view] = readViews(arguments.left, arguments.right);
   InputPair pair;  // gray, 8 bits, as matching sees it
@@ -35,9 +41,8 @@ void check(const CheckArguments& arguments) {
   const ImageView<const std::uint8_t> left = pair.views().left, right = pair.views().right;
   constexpr int kUsualShare = 4;  // of the width
   constexpr int kReach_px = 40;   // there is time
-  const int end = arguments.max_disparity > arguments.min_disparity
-                      ? arguments.max_disparity
-                      : arguments.min_disparity + std::max(16, left.width / kUsualShare);
+  const int end =
+      arguments.max_disparity.value_or(arguments.min_disparity + std::max(16, left.width / kUsualShare));
   RowCheck row_check;
   const auto measure = [&](auto first, auto second) {
     return row_check.measure(first, second, arguments.min_disparity, end - arguments.min_disparity,

@@ -185,7 +185,7 @@ TEST(MeasureObject, FindsAFlatFruitBehindALeaf) {
   const cv::Vec3d center(0, 0, 0.45);
   World world;
   world.addSphere(center, kRadius_m, 0.86);
-  world.addPlane({120, 70, 80, 100}, 0.39);
+  world.addPlane({120, 76, 80, 88}, 0.39);
   world.addPlane({0, 0, kWidth, kHeight}, 1.1);
   const ObjectMeasurement m = measureObject(world.result(), camera(), cv::Rect(71, 44, 179, 153));
   ASSERT_TRUE(m.ok()) << explain(m.failure);

@@ -143,6 +143,10 @@ class RigTest(unittest.TestCase):
     def test_check_of_exchanged_views(self):
         self.accept("render", "boxes", "--size", "480x360", "-o", "scene")
         self.assertIn("exchanged", self.accept("check", "scene/im1.png", "scene/im0.png", status=3))
+        refused = run("check", "scene/im0.png", "scene/im1.png", "--min-disparity", "5", "--max-disparity", "5",
+                      folder=self.folder)
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn("--max-disparity is 5; allowed: above --min-disparity, 5", refused.stderr)
         few = "few pixels could be measured; pomona check"
         self.assertIn(few, self.accept("compute", "scene/im1.png", "scene/im0.png", "-o", "out.pfm"))
         self.assertNotIn(few, self.accept("compute", "scene/im0.png", "scene/im1.png", "-o", "out.pfm"))
