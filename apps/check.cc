@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -24,10 +25,15 @@ constexpr int kNotAligned = 3;  // exit status
 
 struct CheckArguments {
   std::string left, right;
-  int min_disparity = 0, max_disparity = 0;
+  int min_disparity = 0;
+  std::optional<int> max_disparity;
 };
 
 void check(const CheckArguments& arguments) {
+  if (arguments.max_disparity && *arguments.max_disparity <= arguments.min_disparity)
+    throw std::invalid_argument("--max-disparity is " + std::to_string(*arguments.max_disparity) +
+                                "; allowed: above --min-disparity, " +
+                                std::to_string(arguments.min_disparity));
   const MutedErrorStream muted;
   const auto [left_view, right_view] = readViews(arguments.left, arguments.right);
   InputPair pair;  // gray, 8 bits, as matching sees it
@@ -35,14 +41,20 @@ void check(const CheckArguments& arguments) {
   const ImageView<const std::uint8_t> left = pair.views().left, right = pair.views().right;
   constexpr int kUsualShare = 4;  // of the width
   constexpr int kReach_px = 40;   // there is time
-  const int end = arguments.max_disparity > arguments.min_disparity
-                      ? arguments.max_disparity
-                      : arguments.min_disparity + std::max(16, left.width / kUsualShare);
+  const int end =
+      arguments.max_disparity.value_or(arguments.min_disparity + std::max(16, left.width / kUsualShare));
   RowCheck row_check;
-  const RowOffsets rows =
-      row_check.measure(left, right, arguments.min_disparity, end - arguments.min_disparity,
-                        cameraKernels(chooseIsa({})), availableThreads(), kReach_px);
+  const auto measure = [&](auto first, auto second) {
+    return row_check.measure(first, second, arguments.min_disparity, end - arguments.min_disparity,
+                             cameraKernels(chooseIsa({})), availableThreads(), kReach_px);
+  };
+  const RowOffsets rows = measure(left, right), exchanged = measure(right, left);
   std::cout << "points    " << rows.points << " matched\n";
+  if (seemExchanged(rows, exchanged)) {
+    std::cout << "verdict   the views seem to be exchanged: with the second one as the left one, "
+              << exchanged.points << " points match\n";
+    throw CLI::RuntimeError(kNotAligned);
+  }
   if (std::isnan(rows.median_px)) {
     std::cout << "rows      unknown: fewer than 10 points have a match within " << kReach_px
               << " px of their row\n";
@@ -68,8 +80,8 @@ void check(const CheckArguments& arguments) {
 void addCheck(CLI::App& app) {
   CLI::App* verb =
       app.add_subcommand("check",
-                         "Measure whether the rows of a rectified pair match: exit status 3 if not, or if "
-                         "that cannot be told");
+                         "Measure whether the rows of a rectified pair match: exit status 3 if not, if the "
+                         "views seem to be exchanged, or if that cannot be told");
   const auto arguments = std::make_shared<CheckArguments>();  // lives as long as the callback
   verb->add_option("left", arguments->left, "Left image")->required();
   verb->add_option("right", arguments->right, "Right image")->required();

@@ -218,7 +218,13 @@ void addRender(CLI::App& app) {
   std::string names = "orchard, storefront, indoor, ";
   for (const std::string& name : sceneNames()) names += name + ", ";
   verb->add_option("scene", arguments->scene, names + "chessboard")->required();
-  verb->add_option("--seed", arguments->seed, "Arrangement, paint and noise (default 1)");
+  // CLI11 takes -1, and what does not fit, for the largest number there is.
+  const auto isSeed = [](const std::string& text) -> std::string {
+    constexpr std::size_t kDigits = 18;
+    const bool good = text.size() <= kDigits && text.find_first_not_of("0123456789") == text.npos;
+    return good ? "" : "is '" + text + "'; allowed: a whole number of up to 18 digits, 0 or above";
+  };
+  verb->add_option("--seed", arguments->seed, "Arrangement, paint and noise (default 1)")->check(isSeed);
   addSceneOptions(*verb, *arguments);
   addCameraOptions(*verb, *arguments);
   verb->add_option("-o,--output", arguments->folder, "Folder for the files; made if it is not there")

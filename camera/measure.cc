@@ -8,6 +8,7 @@
 
 #include "camera/errors_alike.h"
 #include "camera/region.h"
+#include "camera/seen_share.h"
 #include "camera/sphere_fit.h"
 #include "camera/surface_fit.h"
 #include "camera/triangulate.h"
@@ -18,10 +19,10 @@ namespace {
 // Fruits are no spheres: what that makes of the near side and of the centre, as a share of the radius.
 constexpr double kNearShapeError = 0.01, kCenterShapeError = 0.06;
 
-// Of a sphere, to be believed.
-constexpr double kLeastScore = 0.1;
+// To be believed: a sphere's score; and how much was seen of it, or of any surface.
+constexpr double kLeastScore = 0.075, kLeastSeen = 0.2, kOnSphere_px = 1;
 
-constexpr int kSamplesToVote = 250, kSamplesToFit = 1200;
+constexpr int kSamplesToVote = 250, kSamplesToFit = 600;
 
 void requireMap(const char* name, const cv::Mat& map, int type, cv::Size size) {
   if (!map.empty() && (map.type() != type || map.size() != size))
@@ -129,6 +130,8 @@ std::string_view explain(MeasureFailure failure) {
       return "the disparities are those of infinity, or beyond";
     case MeasureFailure::kScattered:
       return "too few of the disparities agree on one surface";
+    case MeasureFailure::kUnseen:
+      return "most of what the region shows was not measured: it may be something that one camera only sees";
   }
   return "unknown";
 }
@@ -155,11 +158,17 @@ ObjectMeasurement measureObject(const StereoResult& result, const StereoCalibrat
     const auto best = std::max_element(spheres.begin(), spheres.end(),
                                        [](const auto& a, const auto& b) { return a.score < b.score; });
     if (best != spheres.end() && best->score > kLeastScore) {
+      const auto sphere = [&](const cv::Vec3d& ray) { return parallaxAlong(ray, *best, calibration); };
+      if (seenShare(samples, calibration, sphere, kOnSphere_px) < kLeastSeen)
+        return failed(MeasureFailure::kUnseen);
       set(m, *best, calibration);
       const double excess_m = prior.radius_m > 0 ? 0 : excessOf(*best, outline, calibration);
       m.distance_sigma_m = std::hypot(m.distance_sigma_m, doubtOf(*best, spheres), excess_m);
     }
   } else if (const auto surface = fitSurface(samples)) {
+    const auto everywhere = [&](const cv::Vec3d&) { return std::optional(surface->parallax_px); };
+    if (seenShare(samples, calibration, everywhere, kSurfaceReach_px) < kLeastSeen)
+      return failed(MeasureFailure::kUnseen);
     set(m, *surface, calibration);
   }
   if (m.support_px < options.min_support_px) return failed(MeasureFailure::kScattered);

@@ -124,20 +124,25 @@ RegionSamples samplesOf(const StereoResult& result, const StereoCalibration& cal
       if (mask.inside(row, column) == 0) continue;
       const int y = mask.box.y + row, x = mask.box.x + column;
       const float d = result.disparity.at<float>(y, x);
-      if (!std::isfinite(d)) continue;
-      ++out.known_px;
+      const bool known = std::isfinite(d);
       const double parallax_px = d + calibration.doffs_px;
-      if (parallax_px <= 0) ++out.infinite_px;
-      if (parallax_px <= 0 || row % step != step / 2 || column % step != step / 2) continue;
-      const cv::Vec3d ray((x - calibration.cx_px) / calibration.focal_px,
-                          (y - calibration.cy_px) / calibration.focal_px, 1);
+      out.known_px += known;
+      out.infinite_px += known && parallax_px <= 0;
+      if (row % step != step / 2 || column % step != step / 2) continue;
+      const cv::Vec3d line((x - calibration.cx_px) / calibration.focal_px,
+                           (y - calibration.cy_px) / calibration.focal_px, 1);
+      const cv::Vec3d ray = line * (1 / cv::norm(line));
+      const cv::Point2d offset = (cv::Point2d(x, y) - outline.center_px) * (1 / outline.radius_px);
+      const double centrality = std::exp(-kDecline * offset.dot(offset));
+      const PixelState state = result.state.empty() ? PixelState::kMeasured : result.stateAt(y, x);
+      const bool measured = known && isMeasured(state);
+      if (!measured && state != PixelState::kMasked) out.unmeasured.push_back({ray, double(x), centrality});
+      if (!known || parallax_px <= 0) continue;
       const double sigma_px = result.sigma_px.empty() ? kUsualSigma_px : result.sigma_px.at<float>(y, x);
       const double confidence = result.confidence.empty() ? 1 : result.confidence.at<float>(y, x);
-      const bool measured = result.state.empty() || isMeasured(result.stateAt(y, x));
       const double trust = confidence * (measured ? 1 : kTrustInFilled);
-      const cv::Point2d offset = (cv::Point2d(x, y) - outline.center_px) * (1 / outline.radius_px);
-      out.samples.push_back({ray * (1 / cv::norm(ray)), double(x), double(y), parallax_px, sigma_px, trust,
-                             trust * std::exp(-kDecline * offset.dot(offset))});
+      out.samples.push_back({ray, double(x), double(y), parallax_px, sigma_px, trust, centrality,
+                             trust * centrality, measured});
     }
   return out;
 }

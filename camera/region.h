@@ -31,12 +31,21 @@ struct SurfaceSample {
   double parallax_px;  ///< d + doffs, > 0
   double sigma_px;
   double trust;  ///< 0 to 1
-  /// Trust, times a bell around the outline's middle that is down to a fifth at its radius: detectors put the
-  /// object in the middle.
-  double central_trust;
+  /// A bell around the outline's middle that is down to a fifth at its radius: detectors put the object in
+  /// the middle.
+  double centrality;
+  double central_trust;  ///< trust times centrality
+  bool measured;         ///< not filled
+};
+/// A pixel that was not measured, whether filled or not. Masked ones are none.
+struct UnmeasuredPixel {
+  cv::Vec3d ray;
+  double x_px;
+  double centrality;
 };
 struct RegionSamples {
   std::vector<SurfaceSample> samples;
+  std::vector<UnmeasuredPixel> unmeasured;
   int known_px = 0;        ///< pixels of the region with a disparity
   int infinite_px = 0;     ///< of these, with d + doffs <= 0
   double pixels_each = 1;  ///< pixels that each sample stands for

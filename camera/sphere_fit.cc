@@ -92,14 +92,23 @@ double centralTrust(const RegionSamples& region) {
 
 // One pass of Gauss-Newton.
 struct NormalEquations {
-  cv::Matx44d information = cv::Matx44d::zeros();
+  cv::Matx44d information = cv::Matx44d::zeros();  // its upper half, until symmetric()
   cv::Vec4d gradient = cv::Vec4d::all(0);
   double squares = 0, trust = 0, pixels = 0;   // of the samples on the sphere
   double central_trust = 0, seen_through = 0;  // of those, and of those behind it
 
-  void add(const cv::Vec4d& jacobian, double residual, double weight) {
-    information += jacobian * jacobian.t() * weight;
-    gradient += jacobian * (weight * residual);
+  /// A row that is (scale normal, scale).
+  void add(const cv::Vec3d& normal, double scale, double residual, double weight) {
+    const double row[4] = {scale * normal[0], scale * normal[1], scale * normal[2], scale};
+    for (int i = 0; i < 4; ++i) {
+      const double weighted = weight * row[i];
+      for (int j = i; j < 4; ++j) information(i, j) += weighted * row[j];
+      gradient[i] += weighted * residual;
+    }
+  }
+  void makeSymmetric() {
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < i; ++j) information(i, j) = information(j, i);
   }
 };
 
@@ -114,48 +123,61 @@ NormalEquations normalEquations(const FittedSphere& sphere, const RegionSamples&
   // A leaf lies 1 or 2 cm before its fruit: far away, that is less than a pixel, and no outlier to a wider
   // reach.
   constexpr double kReach_sigmas = 2, kMostReach_px = 1;
-  constexpr double kShapeError = 0.02;  // of the radius: no fruit is a sphere
+  constexpr double kShapeError = 0.02;   // of the radius: no fruit is a sphere
+  constexpr double kLargestDent = 0.15;  // of the radius: what is farther behind is seen through it
   const double focal_baseline = calibration.focal_px * calibration.baseline_m;
   const double independent = region.pixels_each / kAlike_px;
+  const double squared_radius = sphere.radius_m * sphere.radius_m;
+  const double beyond = sphere.center_m.dot(sphere.center_m) - squared_radius;
   NormalEquations equations;
   for (const SurfaceSample& s : region.samples) {
     const double along = s.ray.dot(sphere.center_m);
-    const double inside =
-        along * along - sphere.center_m.dot(sphere.center_m) + sphere.radius_m * sphere.radius_m;
-    const double depth_in_sphere = inside > 0 ? std::sqrt(inside) : 0;  // half of the chord
-    if (depth_in_sphere < kSteepest * sphere.radius_m) continue;
+    const double inside = along * along - beyond;
+    if (inside < kSteepest * kSteepest * squared_radius) continue;
+    const double depth_in_sphere = std::sqrt(inside);  // half of the chord
     const double t = along - depth_in_sphere;
     const double parallax_px = focal_baseline / (t * s.ray[2]);
     const double residual = s.parallax_px - parallax_px;
     const double sigma_px = std::max(s.sigma_px, kSmallestSigma_px);
-    const double shape_px = kShapeError * sphere.radius_m * parallax_px / t;
+    const double radius_px = sphere.radius_m * parallax_px / t;  // by how much a radius nearer is more
+    const double shape_px = kShapeError * radius_px;
     const double reach_px2 =
         std::min(kReach_sigmas * kReach_sigmas * (sigma_px * sigma_px + shape_px * shape_px),
                  kMostReach_px * kMostReach_px);
     const double share = residual > 0 ? reach.before : reach.behind;
-    const double off2 = residual * residual / reach_px2, u2 = off2 / (share * share);
-    if (residual < 0 && off2 >= 1) equations.seen_through += s.central_trust;
-    if (u2 >= 1) continue;
-    const double biweight = (1 - u2) * (1 - u2);
+    const double off_px2 = residual * residual;
+    if (s.measured && off_px2 >= reach_px2 && -residual > kLargestDent * radius_px)
+      equations.seen_through += s.central_trust;
+    if (off_px2 >= share * share * reach_px2) continue;
+    const double u2 = off_px2 / (share * share * reach_px2), biweight = (1 - u2) * (1 - u2);
     const double weight = s.trust * biweight / (sigma_px * sigma_px);
     const cv::Vec3d normal = (s.ray * t - sphere.center_m) * (1 / sphere.radius_m);
-    const double scale = parallax_px / t / (depth_in_sphere / sphere.radius_m);  // -dp/dt / -(r n)
-    const cv::Vec4d jacobian(scale * normal[0], scale * normal[1], scale * normal[2], scale);
-    equations.add(jacobian, residual, weight * independent);
-    equations.squares += weight * residual * residual;
+    const double scale = radius_px / depth_in_sphere;  // -dp/dt / -(r n)
+    equations.add(normal, scale, residual, weight * independent);
+    equations.squares += weight * off_px2;
     equations.trust += s.trust * biweight;
     equations.central_trust += s.central_trust * biweight;
     equations.pixels += region.pixels_each;
   }
+  equations.makeSymmetric();
   return equations;
 }
 
 }  // namespace
 
+std::optional<double> parallaxAlong(const cv::Vec3d& ray, const FittedSphere& sphere,
+                                    const StereoCalibration& calibration) {
+  const double along = ray.dot(sphere.center_m);
+  const double inside =
+      along * along - sphere.center_m.dot(sphere.center_m) + sphere.radius_m * sphere.radius_m;
+  if (inside <= 0) return {};
+  return calibration.focal_px * calibration.baseline_m / ((along - std::sqrt(inside)) * ray[2]);
+}
+
 std::vector<FittedSphere> vote(const RegionSamples& region, const Outline& outline, const RadiusPrior& prior,
                                const StereoCalibration& calibration) {
   constexpr double kStep = 0.3, kRatio = 1.33;  // of the outline's radius; between radii
-  constexpr std::size_t kMostGuesses = 6;
+  constexpr std::size_t kMostGuesses = 8;
   SphereVotes votes(region, prior, calibration);
   std::vector<Candidate> coarse;
   for (int dy = -2; dy <= 2; ++dy)
@@ -199,7 +221,9 @@ std::optional<FittedSphere> refine(const FittedSphere& guess, const RegionSample
     const double distance_m = cv::norm(sphere.center_m);
     const double outline_m = outline.radius_px / calibration.focal_px * distance_m;
     const RadiusPrior radius = prior.radius_m > 0 ? prior : RadiusPrior{outline_m, kRoughly * outline_m};
-    equations.add({0, 0, 0, 1}, radius.radius_m - sphere.radius_m, 1 / (radius.sigma_m * radius.sigma_m));
+    const double certainty = 1 / (radius.sigma_m * radius.sigma_m);
+    equations.information(3, 3) += certainty;
+    equations.gradient[3] += certainty * (radius.radius_m - sphere.radius_m);
     // Little is seen of some: then all that is known of their sides is that they are in the outline.
     for (int axis = 0; axis < 2; ++axis) equations.information(axis, axis) += 1 / (outline_m * outline_m);
     bool solved = false;

@@ -21,9 +21,14 @@ struct FittedSphere {
   cv::Matx44d covariance;  ///< of the centre (x, y, z) and the radius, in m^2, without errors of shape
   double support_px = 0;   ///< pixels that lie on it
   /// How much speaks for it: the share of the region's central trust that lies on it, less twice that which
-  /// is seen through it, less where its radius is not the expected one; at most 1.
+  /// was measured, not filled, well behind it, so that it is seen through it; less where its radius is not
+  /// the expected one; at most 1.
   double score = 0;
 };
+
+/// The parallax of the sphere's near side along the ray, in pixels; none beside it.
+std::optional<double> parallaxAlong(const cv::Vec3d& ray, const FittedSphere& sphere,
+                                    const StereoCalibration& calibration);
 
 /// First guesses by voting. A sphere of angular radius alpha around the bearing b that touches the surface
 /// point seen along the ray r at parallax p has the centre's parallax
@@ -33,8 +38,8 @@ struct FittedSphere {
 /// measured along b: the factor of p depends on the place in the image alone. So for each b and alpha every
 /// pixel votes for one q, with its trust and a weight that falls from the middle of the outline; those on a
 /// sphere like that vote for the same. Of a coarse grid of b and alpha around the outline's, those with most
-/// votes within 1/2 px: up to six, at least 1 px apart, best first. Of the spheres only centre and radius are
-/// set.
+/// votes within 1/2 px: up to eight, at least 1 px apart, best first. Of the spheres only centre and radius
+/// are set.
 std::vector<FittedSphere> vote(const RegionSamples& region, const Outline& outline, const RadiusPrior& prior,
                                const StereoCalibration& calibration);
 

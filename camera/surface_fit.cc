@@ -9,7 +9,6 @@
 namespace pomona {
 
 std::optional<FittedSurface> fitSurface(const RegionSamples& region) {
-  constexpr double kReach_px = 2;
   Votes votes(largestParallax(region));
   for (const SurfaceSample& s : region.samples) votes.add(s.parallax_px, s.central_trust);
   const Votes::Peak peak = votes.peak();
@@ -18,7 +17,7 @@ std::optional<FittedSurface> fitSurface(const RegionSamples& region) {
   FittedSurface surface;
   double weights = 0, information = 0;
   for (const SurfaceSample& s : region.samples) {
-    if (std::abs(s.parallax_px - peak.position) >= kReach_px) continue;
+    if (std::abs(s.parallax_px - peak.position) >= kSurfaceReach_px) continue;
     const double sigma_px = std::max(s.sigma_px, kSmallestSigma_px);
     const double weight = s.trust / (sigma_px * sigma_px);
     surface.middle_px += cv::Point2d(s.x_px, s.y_px) * weight;

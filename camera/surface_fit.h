@@ -15,6 +15,9 @@ struct FittedSurface {
   double support_px = 0;
 };
 
+/// How far off the peak a pixel may be.
+inline constexpr double kSurfaceReach_px = 2;
+
 /// Each pixel votes for its own parallax, with its trust and a weight that falls from the outline's middle;
 /// then the mean of those near the peak. None if there is no vote.
 std::optional<FittedSurface> fitSurface(const RegionSamples& region);

@@ -481,7 +481,9 @@ class BadOptions(CommandTest):
         self.put("file", "x")
         self.assert_refused(self.run_command("render", "boxes", "--size", "16x16", "-o", "file"), "file")
         self.assert_refused(self.run_command("render", "boxes", "--size", "16x16", "-o", "no/where"), "no/where")
-        self.assert_refused(self.run_command("render", "boxes", "--seed", "x", "-o", "scene"), "--seed")
+        for seed in ("x", "-1", "1.5", "1" + 18 * "0"):
+            self.assert_refused(self.run_command("render", "boxes", "--seed", seed, "-o", "scene"),
+                                f"--seed: is '{seed}'; allowed: a whole number")
         self.assert_left_alone(["file"])
 
 

@@ -38,11 +38,14 @@ class World {
  public:
   World() : depth_(kHeight, kWidth, 1e9) {}
 
-  void addSphere(const cv::Vec3d& center, double radius) {
+  // `height`: of its upright half axis, as a share of the radius.
+  void addSphere(const cv::Vec3d& center, double radius, double height = 1) {
+    const cv::Vec3d stretched(center[0], center[1] / height, center[2]);
     forAll([&](int x, int y) {
-      const double along = rayOf(x, y).dot(center);
-      const double inside = along * along - center.dot(center) + radius * radius;
-      return inside > 0 ? (along - std::sqrt(inside)) * rayOf(x, y)[2] : 1e9;
+      const cv::Vec3d ray(rayOf(x, y)[0], rayOf(x, y)[1] / height, rayOf(x, y)[2]);
+      const double along = ray.dot(stretched) / ray.dot(ray);
+      const double inside = along * along - (stretched.dot(stretched) - radius * radius) / ray.dot(ray);
+      return inside > 0 ? (along - std::sqrt(inside)) * ray[2] : 1e9;
     });
   }
   void addPlane(const cv::Rect& where, double depth_m, double slope_m_per_px = 0) {
@@ -176,6 +179,74 @@ TEST(MeasureObject, BelievesWhatWasMeasuredRatherThanWhatWasFilled) {
   expectSphere(measureObject(result, camera(), kBox), 0.005);
 }
 
+// Apples are no spheres: what lies a little behind the sphere is not seen through it, even if a leaf hides
+// most of the fruit.
+TEST(MeasureObject, FindsAFlatFruitBehindALeaf) {
+  const cv::Vec3d center(0, 0, 0.45);
+  World world;
+  world.addSphere(center, kRadius_m, 0.86);
+  world.addPlane({120, 76, 80, 88}, 0.39);
+  world.addPlane({0, 0, kWidth, kHeight}, 1.1);
+  const ObjectMeasurement m = measureObject(world.result(), camera(), cv::Rect(71, 44, 179, 153));
+  ASSERT_TRUE(m.ok()) << explain(m.failure);
+  EXPECT_NEAR(m.distance_m, cv::norm(center) - kRadius_m, 0.004);
+}
+
+// Filled pixels are guesses, often the background's: they are not seen through the sphere.
+TEST(MeasureObject, IsNotTalkedOutOfASphereByFilledBackground) {
+  World world;
+  world.addSphere(kCenter, kRadius_m);
+  StereoResult result = world.result(0.1);
+  const cv::Rect filled(135, 51, 101, 68);
+  result.disparity(filled) = 57;
+  result.state(filled) = static_cast<int>(PixelState::kFilledBackground);
+  result.confidence(filled) = 0.9;
+  expectSphere(measureObject(result, camera(), kBox), 0.01);
+}
+
+// What the left view shows at (x, y) is to be guessed: as if the right view had not seen it.
+void hide(StereoResult& result, const cv::Rect& where, float disparity) {
+  result.disparity(where) = disparity;
+  result.state(where) =
+      static_cast<int>(std::isnan(disparity) ? PixelState::kOutOfRange : PixelState::kFilledBackground);
+  result.confidence(where) = std::isnan(disparity) ? 0 : 0.6;
+}
+
+// The middle of the region was not measured; what was measured at its edge is a neighbour.
+TEST(MeasureObject, DoesNotTakeANeighbourForWhatOneCameraOnlySees) {
+  World world;
+  world.addSphere(kCenter + cv::Vec3d(0.06, 0, -0.03), kRadius_m);
+  world.addPlane({0, 0, kWidth, kHeight}, 1.5);
+  for (const float guess : {kNan, 77.0f}) {
+    SCOPED_TRACE(guess);
+    StereoResult result = world.result(0.1);
+    hide(result, {100, 0, 100, kHeight}, guess);
+    EXPECT_EQ(measureObject(result, camera(), kBox).failure, MeasureFailure::kUnseen);
+    cv::Mat mask(kHeight, kWidth, CV_8U, cv::Scalar(0));
+    mask(cv::Rect(135, 51, 70, 101)) = 255;
+    EXPECT_EQ(measureObject(result, camera(), mask).failure, MeasureFailure::kUnseen);
+    MeasureOptions options;
+    options.shape = ObjectShape::kSurface;
+    EXPECT_EQ(measureObject(result, camera(), mask, options).failure, MeasureFailure::kUnseen);
+  }
+}
+
+// At 0.76 m, partners of the columns up to 154 lie outside of the right view.
+TEST(MeasureObject, MeasuresWhatReachesOutOfTheRightView) {
+  const cv::Vec3d center(-0.03, -0.015, 0.8);
+  World world;
+  world.addSphere(center, kRadius_m);
+  StereoResult result = world.result(0.1);
+  hide(result, {0, 0, 152, kHeight}, kNan);
+  MeasureOptions options;
+  options.radius_m = kRadius_m;
+  options.radius_sigma_m = 0.002;
+  const ObjectMeasurement m = measureObject(result, camera(), cv::Rect(72, 51, 101, 101), options);
+  ASSERT_TRUE(m.ok()) << explain(m.failure);
+  const double near_m = cv::norm(center) - kRadius_m;
+  EXPECT_NEAR(m.distance_m, near_m, 0.005 * near_m);
+}
+
 TEST(MeasureObject, NeedsNoMapsButTheDisparity) {
   World world;
   world.addSphere(kCenter, kRadius_m);
@@ -273,7 +344,7 @@ TEST(MeasureObject, SaysWhyItCannot) {
   EXPECT_EQ(failureOf(kBox), MeasureFailure::kInfinite);
   cv::RNG(1).fill(result.disparity, cv::RNG::UNIFORM, 10, 300);
   EXPECT_EQ(failureOf(kBox), MeasureFailure::kScattered);
-  for (int i = 0; i <= static_cast<int>(MeasureFailure::kScattered); ++i)
+  for (int i = 0; i <= static_cast<int>(MeasureFailure::kUnseen); ++i)
     EXPECT_NE(explain(static_cast<MeasureFailure>(i)), "unknown");
 }
 

@@ -140,6 +140,17 @@ class RigTest(unittest.TestCase):
         self.accept("render", "planes", "--seed", "9", "--size", "480x360", "-o", "other")
         self.assertNotIn("verdict   aligned", self.accept("check", "scene/im0.png", "other/im1.png", status=3))
 
+    def test_check_of_exchanged_views(self):
+        self.accept("render", "boxes", "--size", "480x360", "-o", "scene")
+        self.assertIn("exchanged", self.accept("check", "scene/im1.png", "scene/im0.png", status=3))
+        refused = run("check", "scene/im0.png", "scene/im1.png", "--min-disparity", "5", "--max-disparity", "5",
+                      folder=self.folder)
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn("--max-disparity is 5; allowed: above --min-disparity, 5", refused.stderr)
+        few = "few pixels could be measured; pomona check"
+        self.assertIn(few, self.accept("compute", "scene/im1.png", "scene/im0.png", "-o", "out.pfm"))
+        self.assertNotIn(few, self.accept("compute", "scene/im0.png", "scene/im1.png", "-o", "out.pfm"))
+
     def test_named_rigs(self):
         shown = self.accept("rig", "show", "seed-003")
         self.assertIn("1280 x 720", shown)

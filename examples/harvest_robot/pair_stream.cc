@@ -16,14 +16,12 @@ class FolderStream : public PairStream {
     const std::vector<std::string> right = namesOf("right");
     requirePartners("left", names_, "right", right);
     requirePartners("right", right, "left", names_);
-    if (names_.empty()) throw std::runtime_error(folder + ": holds no left*.png or left*.jpg");
+    if (names_.empty()) throw std::runtime_error(folder + ": holds no left*.png, left*.jpg or left*.bmp");
   }
-  bool next(cv::Mat& left, cv::Mat& right) override {
-    if (at_ == names_.size()) return false;
-    left = read("left" + names_[at_]);
-    right = read("right" + names_[at_]);
-    ++at_;
-    return true;
+  std::optional<Pair> next() override {
+    if (at_ == names_.size()) return {};
+    const std::string& name = names_[at_++];
+    return Pair{read("left" + name), read("right" + name)};
   }
 
  private:
@@ -33,7 +31,7 @@ class FolderStream : public PairStream {
     for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
       const std::string name = entry.path().filename().string(),
                         extension = entry.path().extension().string();
-      if (name.starts_with(side) && (extension == ".png" || extension == ".jpg"))
+      if (name.starts_with(side) && (extension == ".png" || extension == ".jpg" || extension == ".bmp"))
         names.push_back(name.substr(side.size()));
     }
     std::sort(names.begin(), names.end(), [](const std::string& a, const std::string& b) {
@@ -64,16 +62,14 @@ class VideoStream : public PairStream {
     if (!(is_camera ? video_.open(std::stoi(source)) : video_.open(source)))
       throw std::runtime_error(source + ": no folder, no video and no camera");
   }
-  bool next(cv::Mat& left, cv::Mat& right) override {
-    if (!video_.read(both_)) return false;
-    left = both_.colRange(0, both_.cols / 2);
-    right = both_.colRange(both_.cols / 2, both_.cols / 2 * 2);
-    return true;
+  std::optional<Pair> next() override {
+    cv::Mat both;
+    if (!video_.read(both)) return {};
+    return Pair{both.colRange(0, both.cols / 2), both.colRange(both.cols / 2, both.cols / 2 * 2)};
   }
 
  private:
   cv::VideoCapture video_;
-  cv::Mat both_;
 };
 
 }  // namespace

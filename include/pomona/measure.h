@@ -48,6 +48,7 @@ enum class MeasureFailure {
   kUnmatched,  ///< hardly any of its pixels has a disparity
   kInfinite,   ///< the disparities there are those of infinity, or beyond
   kScattered,  ///< too few of the disparities agree on one surface
+  kUnseen,     ///< those that do may be of something beside the object: most of the region was not measured
 };
 /// A line for people, e.g. "hardly any pixel of the region has a disparity".
 std::string_view explain(MeasureFailure failure);
