@@ -64,7 +64,7 @@ bool hasBetterThanAvx2() {
 void measure(benchmark::State& state, const FrameCase& frame_case, const BenchmarkInputs& inputs) {
   const ImagePair pair = inputs.at(frame_case.size);
   const FrameCase::Frame frame = frame_case.prepare(pair);
-  if (frame_case.keeps_memory) frame();
+  for (int i = 0; frame_case.keeps_memory && i < kWarmUpFrames; ++i) frame();
   for (auto _ : state) frame();
 
   using benchmark::Counter;

@@ -19,7 +19,7 @@ struct FrameCase {
   FrameSize size;
   int threads;
   Traffic traffic;    ///< zero where no model is stated
-  bool keeps_memory;  ///< from frame to frame, so that only the first one pays for it
+  bool keeps_memory;  ///< from frame to frame, so that only the first ones pay for it
   /// Sets the method up, and OpenCV's number of threads. The images must outlive the result.
   std::function<Frame(const ImagePair&)> prepare;
 };

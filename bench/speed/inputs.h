@@ -8,6 +8,9 @@
 
 namespace pomona {
 
+/// Frames that are not measured: memory is taken in the first, laid together in the second (core/arena.h).
+inline constexpr int kWarmUpFrames = 3;
+
 struct FrameSize {
   int width, height, disparities;
 

@@ -56,7 +56,7 @@ double clockNanoseconds() {
 void measure(benchmark::State& state, const KernelDriver& driver, Isa isa, KernelMaterial& material) {
   const KernelTables tables = timedTables(isa);
   const double clock_ns = clockNanoseconds();
-  driver.run(material, tables);  // memory is allocated here
+  for (int i = 0; i < kWarmUpFrames; ++i) driver.run(material, tables);
   for (KernelTime* time : kernelTimes()) time->nanoseconds = time->calls = 0;
   const auto netNanoseconds = [&](const KernelTime& time) {
     return std::max(0.0, static_cast<double>(time.nanoseconds) - clock_ns * static_cast<double>(time.calls));

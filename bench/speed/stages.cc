@@ -35,7 +35,7 @@ void count(benchmark::State& state, const std::vector<StageTiming>& timings) {
 
 void measurePreset(benchmark::State& state, const Options& options, const ImagePair& pair) {
   StereoEngine engine(options);
-  engine.compute(pair.left, pair.right);  // memory is allocated here
+  for (int i = 0; i < kWarmUpFrames; ++i) engine.compute(pair.left, pair.right);
   for (auto _ : state) count(state, engine.compute(pair.left, pair.right).timings);
 }
 
@@ -101,7 +101,7 @@ void measureParts(benchmark::State& state, const Options& options, const ImagePa
     StageClock clock(timings);
     parts.run(options, pair, clock);
   };
-  frame();
+  for (int i = 0; i < kWarmUpFrames; ++i) frame();
   for (auto _ : state) {
     frame();
     count(state, timings);
