@@ -131,7 +131,7 @@ std::string_view explain(MeasureFailure failure) {
     case MeasureFailure::kScattered:
       return "too few of the disparities agree on one surface";
     case MeasureFailure::kUnseen:
-      return "most of what the region shows was not measured: it may be something that one camera only sees";
+      return "most of what the region shows was not measured: it may be something that only one camera sees";
   }
   return "unknown";
 }

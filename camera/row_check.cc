@@ -161,6 +161,28 @@ bool settle(Bytes left, Bytes right, int x, int y, Place& place) {
   return false;
 }
 
+// A pair, and what it looks like reduced.
+struct ReducedPair {
+  Bytes left, right;
+  Bytes left_coarse, right_coarse, left_contrast, right_contrast;
+  int scale;
+};
+
+std::optional<Match> matchIn(int cell, const ReducedPair& pair, Range disparities, int reach) {
+  int x = 0, y = 0, right_x = 0, right_y = 0;
+  if (!findTexture(pair.left_contrast, cell, kBlock / 2 + reach, x, y)) return {};
+  if (!search(pair.left_contrast, pair.right_contrast, x, y, disparities, reach, right_x, right_y)) return {};
+  Place place{static_cast<float>(right_x), static_cast<float>(right_y)};
+  if (!settle(pair.left_coarse, pair.right_coarse, x, y, place)) return {};
+  // The centre of a reduced pixel lies between full ones: take the one above and to the left of it.
+  const int scale = pair.scale, full_x = x * scale + (scale - 1) / 2, full_y = y * scale + (scale - 1) / 2;
+  const auto s = static_cast<float>(scale);
+  Place full{static_cast<float>(full_x) + s * (place.x - static_cast<float>(x)),
+             static_cast<float>(full_y) + s * (place.y - static_cast<float>(y))};
+  if (!settle(pair.left, pair.right, full_x, full_y, full)) return {};
+  return Match{{static_cast<float>(full_x), static_cast<float>(full_y)}, full};
+}
+
 // The plane that fits most points: least squares, with weights that fade out for those far off, which are
 // mismatches.
 RowOffsetPlane fitPlane(const Match* matches, int count, int width, int height, float median_px) {
@@ -229,39 +251,30 @@ void RowCheck::reduce(ImageView<const std::uint8_t> in, int scale, View& view, c
 
 RowOffsets RowCheck::measure(Bytes left, Bytes right, int min_disparity, int num_disparities,
                              const CameraKernels& kernels, int threads, int reach_px) {
-  const int scale = left.width >= 800 ? 4 : left.width >= 400 ? 2 : 1;
-  const int reach = std::max(1, reach_px / scale);
-  reduce(left, scale, left_, kernels, threads);
-  reduce(right, scale, right_, kernels, threads);
-  const Bytes left_contrast = std::as_const(left_.contrast).view(),
-              right_contrast = std::as_const(right_.contrast).view();
-  const Bytes left_coarse = std::as_const(left_.coarse).view(),
-              right_coarse = std::as_const(right_.coarse).view();
-  const Range disparities{min_disparity / scale - 1, (min_disparity + num_disparities) / scale + 2};
-
-  const auto matchIn = [&](int cell) -> std::optional<Match> {
-    int x = 0, y = 0, right_x = 0, right_y = 0;
-    if (!findTexture(left_contrast, cell, kBlock / 2 + reach, x, y)) return {};
-    if (!search(left_contrast, right_contrast, x, y, disparities, reach, right_x, right_y)) return {};
-    Place place{static_cast<float>(right_x), static_cast<float>(right_y)};
-    if (!settle(left_coarse, right_coarse, x, y, place)) return {};
-    // The centre of a reduced pixel lies between full ones: take the one above and to the left of it.
-    const int full_x = x * scale + (scale - 1) / 2, full_y = y * scale + (scale - 1) / 2;
-    const auto s = static_cast<float>(scale);
-    Place full{static_cast<float>(full_x) + s * (place.x - static_cast<float>(x)),
-               static_cast<float>(full_y) + s * (place.y - static_cast<float>(y))};
-    if (!settle(left, right, full_x, full_y, full)) return {};
-    return Match{{static_cast<float>(full_x), static_cast<float>(full_y)}, full};
-  };
-  std::array<std::optional<Match>, kColumns * kRows> found;
-  parallelFor(threads, kRows, [&](int row) {
-    for (int cell = row * kColumns; cell < (row + 1) * kColumns; ++cell)
-      found[static_cast<std::size_t>(cell)] = matchIn(cell);
-  });
   std::array<Match, kColumns * kRows> matches;
   int count = 0;
-  for (const std::optional<Match>& match : found)
-    if (match) matches[static_cast<std::size_t>(count++)] = *match;
+  const auto matchReducedBy = [&](int scale) {
+    reduce(left, scale, left_, kernels, threads);
+    reduce(right, scale, right_, kernels, threads);
+    const auto view = [](const Image<std::uint8_t>& image) { return image.view(); };
+    const ReducedPair pair{
+        left, right, view(left_.coarse), view(right_.coarse), view(left_.contrast), view(right_.contrast),
+        scale};
+    const Range disparities{min_disparity / scale - 1, (min_disparity + num_disparities) / scale + 2};
+    std::array<std::optional<Match>, kColumns * kRows> found;
+    parallelFor(threads, kRows, [&](int row) {
+      for (int cell = row * kColumns; cell < (row + 1) * kColumns; ++cell)
+        found[static_cast<std::size_t>(cell)] =
+            matchIn(cell, pair, disparities, std::max(1, reach_px / scale));
+    });
+    count = 0;
+    for (const std::optional<Match>& match : found)
+      if (match) matches[static_cast<std::size_t>(count++)] = *match;
+  };
+  const int scale = left.width >= 800 ? 4 : left.width >= 400 ? 2 : 1;
+  matchReducedBy(scale);
+  // Fine texture is lost where it is reduced, or looks different where it lies half a reduced row off.
+  if (count < kFewestPoints && scale > 1) matchReducedBy(scale / 2);
   return summary(matches.data(), count, left.width, left.height);
 }
 

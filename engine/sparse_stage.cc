@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "core/parallel.h"
-#include "core/prefetch.h"
 #include "filters/left_right.h"
 #include "filters/median.h"
 #include "filters/speckle.h"
@@ -13,6 +12,8 @@
 
 namespace pomona {
 namespace {
+
+static_assert(kMostCheckedDisparities >= kMaxDisparities);
 
 /// Ambiguous pixels of row y lose their disparity; so do those the mask excludes.
 void removeRejected(MatchMaps& maps, ImageView<const std::uint8_t> mask, int y) {

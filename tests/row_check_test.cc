@@ -13,6 +13,8 @@
 #include "datasets/image_file.h"
 #include "datasets/named_scenes.h"
 #include "datasets/render.h"
+#include "datasets/rendering/named_rigs.h"
+#include "datasets/rendering/orchard.h"
 #include "pomona/engine.h"
 
 namespace pomona {
@@ -76,6 +78,18 @@ TEST(RowCheck, LooksAsFarAsItIsTold) {
   EXPECT_NEAR(
       check.measure(viewOf(views.left), viewOf(right), 0, 64, cameraKernels(chooseIsa({})), 1, 40).median_px,
       23, 0.1);
+}
+
+// Leaves: fine texture, of which little is left in views reduced to a quarter.
+TEST(RowCheck, FindsTheOffsetOfOrchards) {
+  OrchardOptions options;
+  options.seed = 5551;
+  options.nearest_m = 0.6;
+  options.farthest_m = 1.9;
+  const RenderedPair pair = render(orchard(sceneFor(namedRig("seed-003")), options).scene);
+  const cv::Mat left = gray(pair.left.image), right = gray(pair.right.image);
+  for (const double shift_px : {0.0, 2.0, -6.0})
+    EXPECT_NEAR(measure(left, moved(right, shift_px), 60, 170).median_px, shift_px, 0.15);
 }
 
 TEST(RowCheck, NoticesATurnedCamera) {
