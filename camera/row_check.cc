@@ -273,8 +273,9 @@ RowOffsets RowCheck::measure(Bytes left, Bytes right, int min_disparity, int num
   };
   const int scale = left.width >= 800 ? 4 : left.width >= 400 ? 2 : 1;
   matchReducedBy(scale);
-  // Fine texture is lost where it is reduced, or looks different where it lies half a reduced row off.
-  if (count < kFewestPoints && scale > 1) matchReducedBy(scale / 2);
+  // Fine texture is lost where it is reduced, or looks different where it lies half a reduced row off. Not
+  // reduced at all, hot pixels would mislead.
+  if (count < kFewestPoints && scale > 2) matchReducedBy(scale / 2);
   return summary(matches.data(), count, left.width, left.height);
 }
 

@@ -38,9 +38,9 @@ constexpr bool seemExchanged(const RowOffsets& as_given, const RowOffsets& excha
 
 /// Matches up to 160 well-textured points of the left view in two dimensions: by sums of absolute differences
 /// in views reduced to a quarter (a half below 800 px of width, not at all below 400), then by Lucas &
-/// Kanade's method (1981) there and at full size; where fewer than 10 points match, once more in views
-/// reduced half as much. The result does not depend on the number of threads. Keeps its memory between
-/// frames.
+/// Kanade's method (1981) there and at full size; where fewer than 10 points match in views
+/// reduced to a quarter, once more in halves. The result does not depend on the number of threads. Keeps its
+/// memory between frames.
 class RowCheck {
  public:
   /// `left`, `right`: gray, of equal size. Disparities are looked for from `min_disparity` on,

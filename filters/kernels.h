@@ -64,7 +64,8 @@ struct MatchedPixels {
   int x_begin, count, width;
 };
 
-/// One row of filters/left_right.h, and what becomes of the states. It searches at most kMostCheckedDisparities.
+/// One row of filters/left_right.h, and what becomes of the states. It searches at most
+/// kMostCheckedDisparities.
 struct LeftRightRow {
   int width, min_disparity, max_disparity;
   float threshold_px, tolerance_px;  ///< tolerance_px >= 1: two neighbouring columns are within it
