@@ -19,8 +19,9 @@ namespace {
 // Fruits are no spheres: what that makes of the near side and of the centre, as a share of the radius.
 constexpr double kNearShapeError = 0.01, kCenterShapeError = 0.06;
 
-// To be believed: a sphere's score; and how much was seen of it, or of any surface.
-constexpr double kLeastScore = 0.075, kLeastSeen = 0.2, kOnSphere_px = 1;
+// To be believed: a sphere's score, and the share that was seen of it, or of any surface.
+constexpr double kLeastScore = 0.075, kLeastSeen = 0.2;
+constexpr double kOnSphere_px = 1;  // so near lies what is seen of a sphere
 
 constexpr int kSamplesToVote = 250, kSamplesToFit = 600;
 

@@ -16,7 +16,6 @@ namespace {
 
 constexpr int kColumns = 16, kRows = 10;  // one point from each cell of this grid
 constexpr int kBlock = 8;                 // side of the blocks compared there
-constexpr int kFewestPoints = 10;
 
 using Bytes = ImageView<const std::uint8_t>;
 
@@ -216,7 +215,7 @@ float medianOver(int count, ValueOf valueOf) {
 
 RowOffsets summary(const Match* matches, int count, int width, int height) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  if (count < kFewestPoints) return {nan, nan, count, {nan, nan, nan}, nan};
+  if (count < kFewestRowPoints) return {nan, nan, count, {nan, nan, nan}, nan};
   const auto offset = [&](int i) { return matches[i].right.y - matches[i].left.y; };
   const float median = medianOver(count, offset);
   const RowOffsetPlane plane = fitPlane(matches, count, width, height, median);
@@ -275,7 +274,7 @@ RowOffsets RowCheck::measure(Bytes left, Bytes right, int min_disparity, int num
   matchReducedBy(scale);
   // Fine texture is lost where it is reduced, or looks different where it lies half a reduced row off. Not
   // reduced at all, hot pixels would mislead.
-  if (count < kFewestPoints && scale > 2) matchReducedBy(scale / 2);
+  if (count < kFewestRowPoints && scale > 2) matchReducedBy(scale / 2);
   return summary(matches.data(), count, left.width, left.height);
 }
 

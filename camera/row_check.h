@@ -29,18 +29,20 @@ struct RowOffsets {
   float scatter_px;  ///< median distance of the points from the plane; NaN where median_px is
 };
 
+inline constexpr int kFewestRowPoints = 10;  ///< that tell how rows lie
+
 /// Whether two measurements of one pair, as it was given and with its views exchanged, say that the views
 /// were exchanged: then partners are found the other way round. (Points of things far away are found both
 /// ways.)
 constexpr bool seemExchanged(const RowOffsets& as_given, const RowOffsets& exchanged) {
-  return exchanged.points >= 10 && exchanged.points > 2 * as_given.points + 5;
+  return exchanged.points >= kFewestRowPoints && exchanged.points > 2 * as_given.points + 5;
 }
 
 /// Matches up to 160 well-textured points of the left view in two dimensions: by sums of absolute differences
 /// in views reduced to a quarter (a half below 800 px of width, not at all below 400), then by Lucas &
-/// Kanade's method (1981) there and at full size; where fewer than 10 points match in views
-/// reduced to a quarter, once more in halves. The result does not depend on the number of threads. Keeps its
-/// memory between frames.
+/// Kanade's method (1981) there and at full size; where fewer than 10 points match in views reduced to a
+/// quarter, once more in halves. The result does not depend on the number of threads. Keeps its memory
+/// between frames.
 class RowCheck {
  public:
   /// `left`, `right`: gray, of equal size. Disparities are looked for from `min_disparity` on,

@@ -92,7 +92,7 @@ double centralTrust(const RegionSamples& region) {
 
 // One pass of Gauss-Newton.
 struct NormalEquations {
-  cv::Matx44d information = cv::Matx44d::zeros();  // its upper half, until symmetric()
+  cv::Matx44d information = cv::Matx44d::zeros();  // its upper half, until makeSymmetric()
   cv::Vec4d gradient = cv::Vec4d::all(0);
   double squares = 0, trust = 0, pixels = 0;   // of the samples on the sphere
   double central_trust = 0, seen_through = 0;  // of those, and of those behind it

@@ -33,7 +33,7 @@ ImageView<const T> viewOf(const cv::Mat& m) {
   return {m.ptr<T>(), m.cols * m.channels(), m.rows, static_cast<std::ptrdiff_t>(m.step1())};
 }
 
-constexpr int kGrayBlock = 256;
+constexpr int kGrayBlock = 256;  // pixels between two looks ahead
 
 template <typename T>
 ImageView<const T> grayOf(const cv::Mat& image, Image<T>& buffer, void (*to_gray)(const T*, int, T*),

@@ -27,7 +27,7 @@ void removeRejected(MatchMaps& maps, ImageView<const std::uint8_t> mask, int y) 
       maps.disparity.row(y)[x] = std::numeric_limits<float>::quiet_NaN();
 }
 
-/// All that is left to be done to a row of winners without a look at another one, while the cache holds it.
+/// The checks that need no other row, while the cache holds this one.
 void rejectFromRow(MatchMaps& maps, const SparseStage::Settings& s, int y) {
   if (!s.mask.empty() || s.match.winner.uniqueness_percent > 0) removeRejected(maps, s.mask, y);
   if (s.validation.left_right_px >= 0)

@@ -34,7 +34,7 @@ void leftRightCheck(ImageView<float> disparity, ImageView<std::uint8_t> state,
                     ImageView<const float> right_disparity, const LeftRightLimits& limits,
                     const FilterKernels& kernels, int threads);
 
-/// The same of one row of `width` pixels: no other one matters.
+/// The same for one row of `width` pixels, which needs no other.
 void leftRightCheckRow(float* disparity, std::uint8_t* state, const float* right_disparity, int width,
                        const LeftRightLimits& limits, const FilterKernels& kernels);
 

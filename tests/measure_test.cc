@@ -213,7 +213,7 @@ void hide(StereoResult& result, const cv::Rect& where, float disparity) {
 }
 
 // The middle of the region was not measured; what was measured at its edge is a neighbour.
-TEST(MeasureObject, DoesNotTakeANeighbourForWhatOneCameraOnlySees) {
+TEST(MeasureObject, DoesNotTakeANeighbourForWhatOnlyOneCameraSees) {
   World world;
   world.addSphere(kCenter + cv::Vec3d(0.06, 0, -0.03), kRadius_m);
   world.addPlane({0, 0, kWidth, kHeight}, 1.5);

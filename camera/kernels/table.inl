@@ -8,7 +8,7 @@ namespace {
 /// In words: with weights of 64 coarse + fine, both sums fit, and the mean is (coarse + fine / 64) / 64.
 void interpolateRows8(const WeightedRows<std::uint8_t>& rows, int begin, int end,
                       std::uint8_t* __restrict out) {
-  static_assert(kRowWeights == 64 * 64);
+  static_assert(kRowWeights == 64 * 64);  // so fine is within +-32, and no sum of four leaves a word
   const std::uint8_t *a = rows.row[0], *b = rows.row[1], *c = rows.row[2], *d = rows.row[3];
   short coarse[4], fine[4];
   for (int i = 0; i < 4; ++i) {

@@ -2,9 +2,8 @@
 // matched, ripe fruits are found by their colour, and each is measured: a picking list, nearest first.
 //
 //   RIG          any file that `pomona rig` shows; views that are not rectified are rectified
-//   SOURCE       a folder of left*.png and right*.png (.jpg, .bmp), a video or the number of a camera (side
-//   by
-//                side)
+//   SOURCE       a folder of left*.png and right*.png (.jpg, .bmp); or a video or the number of a camera,
+//                with both views side by side
 //   DRAW_FOLDER  where the frames with their fruits go; "window": shown as they come
 //
 // Environment: HARVEST_NEAREST_M, HARVEST_FARTHEST_M (working range, default 0.57 to 1.98).

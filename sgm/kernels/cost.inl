@@ -25,16 +25,16 @@ template <int kPhases>
 void dealRowTo(const std::uint8_t* right, int phases, std::ptrdiff_t phase_stride, int blocks,
                std::uint8_t* __restrict out) {
   constexpr int kBlock = 64;
-  const int n = kPhases ? kPhases : phases;
-  if constexpr (kPhases == 1) {
+  [[maybe_unused]] const int n = kPhases ? kPhases : phases;
+  if constexpr (kPhases == 1) {  // nothing to deal out
     for (int m = 0; m < kBlock * blocks; ++m) out[m] = right[-m];
-    return;
-  }
-  for (int b = 0; b < blocks; ++b, right -= n * kBlock, out += kBlock) {
-    std::uint8_t reversed[(kPhases ? kPhases : pomona::kMaxDisparities / simd::kBytes) * kBlock];
-    for (int i = 0; i < n * kBlock; ++i) reversed[i] = right[-i];
-    for (int phase = 0; phase < n; ++phase)
-      for (int m = 0; m < kBlock; ++m) out[phase * phase_stride + m] = reversed[m * n + phase];
+  } else {
+    for (int b = 0; b < blocks; ++b, right -= n * kBlock, out += kBlock) {
+      std::uint8_t reversed[(kPhases ? kPhases : pomona::kMaxDisparities / simd::kBytes) * kBlock];
+      for (int i = 0; i < n * kBlock; ++i) reversed[i] = right[-i];
+      for (int phase = 0; phase < n; ++phase)
+        for (int m = 0; m < kBlock; ++m) out[phase * phase_stride + m] = reversed[m * n + phase];
+    }
   }
 }
 

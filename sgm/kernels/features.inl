@@ -52,9 +52,9 @@ struct ColorPlanes {
   /// Column x - 1 + i becomes element i, if there is one.
   void take(const std::uint8_t* row, int width, int x, int count) {
     const int first = x > 0 ? 0 : 1, last = x + count < width ? count + 1 : count;
-    const std::uint8_t* __restrict from = row + kChannels * (x - 1);
+    const int from = kChannels * (x - 1);
     for (int i = first; i <= last; ++i)
-      for (int c = 0; c < kChannels; ++c) plane[c][i] = from[kChannels * i + c];
+      for (int c = 0; c < kChannels; ++c) plane[c][i] = row[from + kChannels * i + c];
   }
 };
 
