@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "camera/board_views.h"
 #include "camera/deviations.h"
 
 namespace pomona {
@@ -178,6 +179,7 @@ CalibrationReport calibrateStereo(const std::vector<BoardView>& views, cv::Size 
   const std::vector<cv::Vec3d> corners = boardCorners(board);
   CalibrationReport report;
   for (const BoardView& view : views) report.views.push_back({view.name, view.rejected, 0, 0});
+  rejectAlike(views, report);
   std::vector<const BoardView*> used;
   std::vector<Sighting> sightings;
   for (bool again = true; again;) {
@@ -185,11 +187,7 @@ CalibrationReport calibrateStereo(const std::vector<BoardView>& views, cv::Size 
     for (std::size_t i = 0; i < views.size(); ++i)
       if (report.views[i].rejected.empty()) used.push_back(&views[i]);
     if (static_cast<int>(used.size()) < kFewestViews)
-      throw std::invalid_argument(std::to_string(used.size()) + " of " + std::to_string(views.size()) +
-                                  " views can be used; at least 3 are needed" +
-                                  (views.empty() || views[0].rejected.empty()
-                                       ? ""
-                                       : " (" + views[0].name + ": " + views[0].rejected + ")"));
+      throw std::invalid_argument(tooFewViews(report, kFewestViews));
     report.rig = {};
     report.rms_px = fit(used, image_size, board, options.rational, report.rig);
     sightings.clear();
@@ -200,7 +198,11 @@ CalibrationReport calibrateStereo(const std::vector<BoardView>& views, cv::Size 
     again = rejectOutliers(sightings, options.outlier_factor, report);
   }
   report.used_views = static_cast<int>(used.size());
-  report.rig.rectification = rectificationOf(report.rig);
+  try {
+    report.rig.rectification = rectificationOf(report.rig);
+  } catch (const std::invalid_argument& e) {
+    throw std::invalid_argument(impossibleCameras(views, report, image_size, e.what()));
+  }
   measureEpipolarErrors(sightings, report);
   estimateDeviations(sightings, corners, options.rational ? 8 : 5, report);
   std::vector<BoardView> kept;

@@ -65,7 +65,9 @@ struct CalibrationReport {
   std::vector<std::string> warnings;             ///< what may make the figures worse than they look
 };
 
-/// Throws std::invalid_argument for a board or a size that cannot be, or if fewer than 3 views can be used.
+/// Leaves out views that repeat others, and those whose left and right corners coincide. Throws
+/// std::invalid_argument for a board or a size that cannot be, if fewer than 3 views can be used (saying why
+/// each was rejected), or if no possible cameras fit them.
 CalibrationReport calibrateStereo(const std::vector<BoardView>& views, cv::Size image_size,
                                   const BoardSize& board, const CalibrateOptions& options = {});
 
