@@ -57,6 +57,9 @@ void printSummary(const ComputeArguments& arguments, const SearchRange& range, c
   print("searched  %d to %d px (%s)", range.min, range.min + range.count - 1, range.source.c_str());
   const auto noMinusZero = [](float d) { return std::abs(d) < 0.005f ? 0.0f : d; };
   if (known > 0) print("found     %.2f to %.2f px", noMinusZero(low), noMinusZero(high));
+  constexpr float kMotion_px = 0.5f;
+  if (known > 0 && -low < kMotion_px && high < kMotion_px)
+    print("warning   nothing moves between the views: are they the same picture?");
   print("coverage  %.2f %% (%s)", percent * known, arguments.mode.c_str());
   for (std::size_t state = 0; state < pixels_in_state.size(); ++state)
     if (pixels_in_state[state] > 0)

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "apps/muted_stream.h"
+#include "apps/rig_options.h"
 #include "apps/views.h"
 #include "camera/cloud_file.h"
 #include "camera/rectify.h"
@@ -111,7 +112,7 @@ void requireExtension(const PlannedOutput& output) {
 
 void rectify(const ComputePaths& paths, ComputeInputs& inputs) {
   try {
-    Rectifier rectifier(readRig(paths.rig));
+    Rectifier rectifier(rigNamed(paths.rig));
     rectifier.rectify(inputs.left, inputs.right, availableThreads());
     inputs.left = rectifier.left();
     inputs.right = rectifier.right();
@@ -158,7 +159,7 @@ ComputeInputs readInputs(const ComputePaths& paths) {
   const cv::Size size = inputs.left.size();
   if (!paths.mask.empty()) inputs.mask = readByteMap(paths.mask, size);
   if (!paths.calibration.empty()) {
-    inputs.calibration = rectificationOf(readRig(paths.calibration)).calibration;
+    inputs.calibration = rectificationOf(rigNamed(paths.calibration)).calibration;
     requireCalibrationFits(paths.calibration, *inputs.calibration, size);
   }
   if (!paths.rig.empty()) rectify(paths, inputs);

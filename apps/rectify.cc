@@ -7,6 +7,7 @@
 #include <string>
 
 #include "apps/muted_stream.h"
+#include "apps/rig_options.h"
 #include "apps/verbs.h"
 #include "core/parallel.h"
 #include "datasets/atomic_file.h"
@@ -26,7 +27,7 @@ cv::Mat read(const std::string& path) {
 }
 
 void rectify(const RectifyArguments& arguments) {
-  const StereoRig rig = readRig(arguments.rig);
+  const StereoRig rig = rigNamed(arguments.rig);
   Rectifier rectifier = [&] {
     try {
       return Rectifier(rig);

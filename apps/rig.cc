@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -88,10 +89,17 @@ void addRigPaths(CLI::App& verb, RigPaths& paths) {
       ->check(CLI::Range(0, 99));
 }
 
-StereoRig rigNamed(const std::string& name_or_path) {
-  const std::vector<std::string> names = rigNames();
-  const bool named = std::find(names.begin(), names.end(), name_or_path) != names.end();
-  return named ? namedRig(name_or_path) : readRig(name_or_path);
+StereoRig rigNamed(const std::string& name_or_path, const RigFileOptions& options) {
+  std::string names;
+  for (const std::string& name : rigNames()) {
+    if (name == name_or_path) return namedRig(name);
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  std::error_code error;
+  if (!std::filesystem::exists(name_or_path, error))
+    throw std::runtime_error(name_or_path +
+                             ": cannot be read: no such file; allowed: one, or a rig's name: " + names);
+  return readRig(name_or_path, options);
 }
 
 StereoRig readRig(const RigPaths& paths) {
@@ -100,10 +108,12 @@ StereoRig readRig(const RigPaths& paths) {
   if (!paths.cameras.empty()) {
     options.left_camera = paths.cameras[0];
     options.right_camera = paths.cameras[1];
+    if (paths.cameras[0] == paths.cameras[1])
+      throw std::invalid_argument("--cameras is " + std::to_string(paths.cameras[0]) +
+                                  " twice; allowed: two different ones");
   }
-  if (paths.files.size() == 2) return readRigPair(paths.files[0], paths.files[1], options);
-  return paths.unit.empty() && paths.cameras.empty() ? rigNamed(paths.files[0])
-                                                     : readRig(paths.files[0], options);
+  return paths.files.size() == 2 ? readRigPair(paths.files[0], paths.files[1], options)
+                                 : rigNamed(paths.files[0], options);
 }
 
 void addRig(CLI::App& app) {

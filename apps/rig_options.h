@@ -18,8 +18,8 @@ struct RigPaths {
   std::vector<int> cameras;        ///< none, or left and right
 };
 
-/// One of the renderer's own rigs (rigNames()), or else a file.
-StereoRig rigNamed(const std::string& name_or_path);
+/// One of the renderer's own rigs (rigNames()), or else a file: what any verb's --rig or --calib may name.
+StereoRig rigNamed(const std::string& name_or_path, const RigFileOptions& options = {});
 
 void addRigPaths(CLI::App& verb, RigPaths& paths);
 StereoRig readRig(const RigPaths& paths);

@@ -8,6 +8,10 @@ class App;
 
 namespace pomona {
 
+/// Exit status of a verb that did its work and has no good news: `check` of a pair that cannot be matched,
+/// `measure` of which nothing could be measured. Thrown as CLI::RuntimeError.
+inline constexpr int kNegativeVerdict = 3;
+
 void addCalibrate(CLI::App& app);
 void addCheck(CLI::App& app);
 void addCompare(CLI::App& app);

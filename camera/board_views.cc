@@ -85,8 +85,8 @@ std::string impossibleCameras(const std::vector<BoardView>& views, const Calibra
   const double motion_px = largestMotionPx(views, report);
   if (motion_px < kLittle * image_size.width)
     return "the views are too alike to calibrate by: the board moves by " +
-           std::to_string(std::lround(motion_px)) + " px at most (the cameras that fit them best have: " +
-           reason + ")";
+           std::to_string(std::lround(motion_px)) +
+           " px at most (the cameras that fit them best have: " + reason + ")";
   return "no possible cameras fit the views: " + reason +
          " (do the pictures belong together, and was the board tilted?)";
 }

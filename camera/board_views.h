@@ -8,9 +8,9 @@
 
 namespace pomona {
 
-/// Marks in `report`, which has an entry for each of `views`, those that tell nothing new: whose corners lie at
-/// the same places (to half a pixel) on the left and on the right, or in both images as in a view before it.
-/// From such views any camera, and a baseline of about 0, could follow.
+/// Marks in `report`, which has an entry for each of `views`, those that tell nothing new: whose corners lie
+/// at the same places (to half a pixel) on the left and on the right, or in both images as in a view before
+/// it. From such views any camera, and a baseline of about 0, could follow.
 void rejectAlike(const std::vector<BoardView>& views, CalibrationReport& report);
 
 /// "2 of 5 views can be used; at least 3 are needed; rejected: a.png, b.png (reason), ...": each reason once,

@@ -26,6 +26,7 @@ void StereoCalibration::validate() const {
   require(std::isfinite(doffs_px), "doffs_px", doffs_px, "a finite number");
   require(width >= 0, "width", width, "0 (unknown) or more");
   require(height >= 0, "height", height, "0 (unknown) or more");
+  require((width > 0) == (height > 0), "height", height, "above 0 if width is, 0 (unknown) if width is 0");
   require(num_disparities >= 0, "num_disparities", num_disparities, "0 (unknown) or more");
 }
 

@@ -13,7 +13,7 @@ constexpr int kLongestSide = 32'000;
 constexpr double kLargestFocal_px = 1e6, kLargestCenter_px = 1e6, kLargestCoefficient = 1e4;
 
 template <typename Value>
-void require(bool good, const std::string& field, const Value& value, const char* allowed) {
+void require(bool good, const std::string& field, const Value& value, const std::string& allowed) {
   if (good) return;
   std::ostringstream message;
   message.imbue(std::locale::classic());
@@ -25,16 +25,27 @@ bool within(double value, double low, double high) {  // false for NaN
   return value >= low && value <= high;
 }
 
+std::string sizeText(int width, int height) {
+  return std::to_string(width) + "x" + std::to_string(height);
+}
+
+// A principal point far outside of the image belongs to another image size, or to none.
+void validateCenter(const std::string& name, double cx_px, double cy_px, int width, int height) {
+  const double reach_x = width > 0 ? width : kLargestCenter_px, reach_y = height > 0 ? height : reach_x;
+  const std::string of = width > 0 ? " (of " + sizeText(width, height) + ")" : "";
+  require(within(cx_px, -reach_x, 2 * reach_x), name + " cx", cx_px, "from -1 to 2 image widths" + of);
+  require(within(cy_px, -reach_y, 2 * reach_y), name + " cy", cy_px, "from -1 to 2 image heights" + of);
+}
+
 void validateCamera(const std::string& name, const CameraModel& c) {
   require(within(c.width, 0, kLongestSide), name + " width", c.width, "0 (unknown) to 32000");
   require(within(c.height, 0, kLongestSide), name + " height", c.height, "0 (unknown) to 32000");
+  require((c.width > 0) == (c.height > 0), name + " size", sizeText(c.width, c.height),
+          "width and height, or neither (0x0, unknown)");
   for (const auto& [field, f] : {std::pair(" fx", c.fx_px), std::pair(" fy", c.fy_px)})
     require(f > 0 && f <= kLargestFocal_px, name + field, f, "a number above 0, up to 1000000 px");
   require(within(c.fx_px / c.fy_px, 0.5, 2), name + " fx / fy", c.fx_px / c.fy_px, "0.5 to 2");
-  // A principal point far outside of the image belongs to another image size, or to none.
-  const double width = c.width > 0 ? c.width : kLargestCenter_px, height = c.height > 0 ? c.height : width;
-  require(within(c.cx_px, -width, 2 * width), name + " cx", c.cx_px, "from -1 to 2 image widths");
-  require(within(c.cy_px, -height, 2 * height), name + " cy", c.cy_px, "from -1 to 2 image heights");
+  validateCenter(name, c.cx_px, c.cy_px, c.width, c.height);
   for (std::size_t i = 0; i < c.distortion.size(); ++i)
     require(within(c.distortion[i], -kLargestCoefficient, kLargestCoefficient),
             name + " distortion[" + std::to_string(i) + "]", c.distortion[i], "-10000 to 10000");
@@ -101,7 +112,7 @@ void StereoRig::validate() const {
   validateCamera("left", left);
   validateCamera("right", right);
   require(left.width == right.width && left.height == right.height, "right size",
-          std::to_string(right.width) + "x" + std::to_string(right.height), "the left camera's");
+          sizeText(right.width, right.height), "the left camera's");
   require(left.distortion_model == right.distortion_model, "right distortion model", "another than the left",
           "one model for both cameras");
   validateRotation("R", right_from_left_rotation);
@@ -109,8 +120,11 @@ void StereoRig::validate() const {
   if (!rectification) return;
   validateRotation("left rectification", rectification->left_rotation);
   validateRotation("right rectification", rectification->right_rotation);
-  rectification->calibration.validate();
-  const double stated_m = rectification->calibration.baseline_m;
+  const StereoCalibration& c = rectification->calibration;
+  c.validate();
+  validateCenter("left rectified", c.cx_px, c.cy_px, c.width, c.height);
+  validateCenter("right rectified", c.cx_px + c.doffs_px, c.cy_px, c.width, c.height);
+  const double stated_m = c.baseline_m;
   require(within(stated_m / baselineM(), 0.98, 1.02), "baseline of the rectification", stated_m,
           "the length of T; the file may mix units, or describe two rigs");
   const cv::Vec3d turned =

@@ -1,5 +1,6 @@
 #include "datasets/input_file.h"
 
+#include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
@@ -71,6 +72,11 @@ bool parseNumber(std::string_view text, double& value) {
 }
 bool parseNumber(std::string_view text, int& value) {
   return parseWhole(text, value);
+}
+
+std::string numberText(double value) {
+  std::array<char, 32> digits{};
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
 }
 
 std::string extensionOf(const std::string& path) {

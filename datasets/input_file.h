@@ -26,6 +26,8 @@ std::string printable(std::string text);
 /// Parses the whole of `text` as a number in the C locale's notation; false if it is anything else.
 bool parseNumber(std::string_view text, double& value);
 bool parseNumber(std::string_view text, int& value);
+/// The inverse: the shortest text that reads back as the same number.
+std::string numberText(double value);
 
 /// The file name's extension in lower case with its dot (".pfm"), or empty.
 std::string extensionOf(const std::string& path);

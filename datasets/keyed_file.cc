@@ -1,8 +1,6 @@
 #include "datasets/keyed_file.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
@@ -16,16 +14,10 @@ std::string_view trimmed(std::string_view text) {
 }
 
 template <typename Number>
-std::string shown(Number value) {
-  std::array<char, 32> digits{};
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
-}
-
-template <typename Number>
 Number parseWithin(const KeyedFile& file, std::string_view key, Number smallest, Number largest) {
   Number value{};
   if (!parseNumber(file.text(key), value) || !(value >= smallest && value <= largest))
-    file.fail(key, "a number from " + shown(smallest) + " to " + shown(largest));
+    file.fail(key, "a number from " + numberText(smallest) + " to " + numberText(largest));
   return value;
 }
 

@@ -1,7 +1,6 @@
 #include "datasets/middlebury_calib.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
@@ -70,22 +69,22 @@ MiddleburyCalibration readMiddleburyCalibration(const std::string& path) {
   result.dyavg = optionalNumber(file, "dyavg", 0.0, kLargestOffset);
   result.dymax = optionalNumber(file, "dymax", 0.0, kLargestOffset);
   if (!file.has("doffs")) file.require("cam1");  // else nobody knows what infinity is
+  if (file.has("width")) file.require("height");
+  if (file.has("height")) file.require("width");
   return result;
 }
 
 std::string encodeMiddleburyCalibration(const StereoCalibration& calibration) {
   calibration.validate();
-  const auto text = [](double value) {
-    std::array<char, 32> digits{};  // the shortest decimal that reads back as the same number
-    return std::string(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
-  };
   const auto camera = [&](double cx_px) {
-    const std::string focal = text(calibration.focal_px);
-    return focal + " 0 " + text(cx_px) + "; 0 " + focal + " " + text(calibration.cy_px) + "; 0 0 1]\n";
+    const std::string focal = numberText(calibration.focal_px);
+    return focal + " 0 " + numberText(cx_px) + "; 0 " + focal + " " + numberText(calibration.cy_px) +
+           "; 0 0 1]\n";
   };
-  std::string file =
-      "cam0=[" + camera(calibration.cx_px) + "cam1=[" + camera(calibration.cx_px + calibration.doffs_px) +
-      "doffs=" + text(calibration.doffs_px) + "\nbaseline=" + text(1000 * calibration.baseline_m) + "\n";
+  std::string file = "cam0=[" + camera(calibration.cx_px) + "cam1=[" +
+                     camera(calibration.cx_px + calibration.doffs_px) +
+                     "doffs=" + numberText(calibration.doffs_px) +
+                     "\nbaseline=" + numberText(1000 * calibration.baseline_m) + "\n";
   if (calibration.width > 0) file += "width=" + std::to_string(calibration.width) + "\n";
   if (calibration.height > 0) file += "height=" + std::to_string(calibration.height) + "\n";
   if (calibration.num_disparities > 0) file += "ndisp=" + std::to_string(calibration.num_disparities) + "\n";

@@ -16,9 +16,9 @@ struct MiddleburyCalibration {
 };
 
 /// Reads cam0=[f 0 cx; 0 f cy; 0 0 1] and baseline (millimetres), which are required; doffs (pixels)
-/// or cam1, of which doffs is cx minus cam0's, one of which is; width, height, ndisp, isint, vmin, vmax,
-/// dyavg and dymax. Other keys are ignored. Throws std::runtime_error "path: line N: ..." for what cannot be
-/// understood or makes no sense.
+/// or cam1, of which doffs is cx minus cam0's, one of which is; width and height (both, or neither), ndisp,
+/// isint, vmin, vmax, dyavg and dymax. Other keys are ignored. Throws std::runtime_error "path: line N: ..."
+/// for what cannot be understood or makes no sense.
 MiddleburyCalibration readMiddleburyCalibration(const std::string& path);
 
 /// The file for `calibration`; figures that are 0 because they are unknown are left out.

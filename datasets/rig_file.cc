@@ -58,21 +58,24 @@ std::string shown(double value) {
   return text.str();
 }
 
-void requirePlausible(const StereoRig& rig) {
+void requirePlausible(const StereoRig& rig, const RigFileOptions& options) {
   const double baseline_m = rig.baselineM();
   if (baseline_m >= kShortestBaseline_m && baseline_m <= kLongestBaseline_m) return;
-  const char* guess = baseline_m > kLongestBaseline_m ? "perhaps the file counts millimetres"
-                                                      : "perhaps the file counts metres, not millimetres";
+  const std::string guess =
+      options.unit_m > 0 ? "its numbers taken in units of " + shown(options.unit_m) + " m, as asked for"
+      : baseline_m > kLongestBaseline_m
+          ? "perhaps the file counts millimetres: pomona rig convert --unit mm"
+          : "perhaps the file counts metres, not millimetres: pomona rig convert --unit m";
   throw std::invalid_argument("baseline is " + shown(baseline_m) + " m; allowed: 0.001 to 10 m (" + guess +
-                              "; its unit can be given: unit_m, --unit)");
+                              ")");
 }
 
 // A reader's complaints that don't know their file yet, with the path in front.
 template <typename Reader>
-StereoRig checked(const std::string& path, const Reader& read) {
+StereoRig checked(const std::string& path, const RigFileOptions& options, const Reader& read) {
   try {
     StereoRig rig = read();
-    if (std::isfinite(rig.baselineM()) && rig.baselineM() > 0) requirePlausible(rig);
+    if (std::isfinite(rig.baselineM()) && rig.baselineM() > 0) requirePlausible(rig, options);
     rig.validate();
     return rig;
   } catch (const std::invalid_argument& e) {
@@ -117,7 +120,7 @@ StereoRig readRig(const std::string& path, const RigFileOptions& options) {
   if (fs::is_directory(path, error))
     return readRigPair(inFolder(path, "left"), inFolder(path, "right"), options);
   const std::string text = readText(path);
-  return checked(path, [&] {
+  return checked(path, options, [&] {
     if (isYaml(path, text)) return fromYaml(path, YamlFields::parse(path, text), options);
     if (text.find("cam0") != text.npos && text.find('=') != text.npos) return fromMiddlebury(path, options);
     if (text.find("P0:") != text.npos || text.find("P2:") != text.npos || text.find("P_rect_") != text.npos)
@@ -130,7 +133,7 @@ StereoRig readRig(const std::string& path, const RigFileOptions& options) {
 
 StereoRig readRigPair(const std::string& left_path, const std::string& right_path,
                       const RigFileOptions& options) {
-  return checked(left_path + ", " + right_path, [&] {
+  return checked(left_path + ", " + right_path, options, [&] {
     const YamlFields left = YamlFields::parse(left_path, readText(left_path));
     const YamlFields right = YamlFields::parse(right_path, readText(right_path));
     if (left.has("M1")) return rigFromOpenCv(left, right, openCvUnit(right, options));

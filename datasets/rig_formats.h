@@ -35,8 +35,9 @@ void setDistortion(CameraModel& camera, const YamlFields& fields, const std::str
 struct RectifiedView {
   double focal_px, cx_px, cy_px, offset;
 };
-/// Throws std::invalid_argument for a matrix that is none.
+/// Throws std::invalid_argument for a matrix that is none, saying what is allowed.
 RectifiedView rectifiedView(const cv::Matx34d& projection);
+RectifiedView rectifiedView(const YamlFields& fields, const std::string& key);
 
 /// The rectified pair's geometry, `left` with its offset subtracted. Throws std::invalid_argument if the
 /// views do not fit each other, or if the sign of the offset says that they are exchanged.

@@ -27,8 +27,8 @@ RectifiedView view(const KeyedFile& file, const std::string& key) {
   // All of KITTI's cameras share a frame; what they are off its rows is at most some millimetres.
   try {
     return rectifiedView(p);
-  } catch (const std::invalid_argument&) {
-    file.fail(key, "f 0 cx t 0 f cy t 0 0 1 t with f > 0");
+  } catch (const std::invalid_argument& e) {
+    file.fail(key, e.what());
   }
 }
 

@@ -35,9 +35,20 @@ cv::Size readSize(const YamlFields& fields, const char* width, const char* heigh
   return {fields.integer(width, 1, kLongestSide), fields.integer(height, 1, kLongestSide)};
 }
 
+// Of either file, or of both alike.
+cv::Size imageSize(const YamlFields& intrinsics, const YamlFields& extrinsics) {
+  const cv::Size first = readSize(intrinsics, "image_width", "image_height");
+  const cv::Size second = readSize(extrinsics, "image_width", "image_height");
+  if (first.empty() || second.empty()) return first.empty() ? second : first;
+  if (first.width != second.width)
+    extrinsics.fail("image_width", "that of the intrinsics, " + std::to_string(first.width));
+  if (first.height != second.height)
+    extrinsics.fail("image_height", "that of the intrinsics, " + std::to_string(first.height));
+  return first;
+}
+
 Rectification readRectification(const YamlFields& fields, double unit_m, cv::Size size) {
-  const RectifiedView left = rectifiedView(fields.matrix<3, 4>("P1"));
-  const RectifiedView right = rectifiedView(fields.matrix<3, 4>("P2"));
+  const RectifiedView left = rectifiedView(fields, "P1"), right = rectifiedView(fields, "P2");
   Rectification result{fields.matrix<3, 3>("R1"), fields.matrix<3, 3>("R2"),
                        calibrationOf(left, right, unit_m, size)};
   if (fields.has("num_disparities"))
@@ -64,24 +75,37 @@ void setDistortion(CameraModel& camera, const YamlFields& fields, const std::str
 }
 
 RectifiedView rectifiedView(const cv::Matx34d& p) {
-  const bool upright = p(0, 0) > 0 && p(0, 1) == 0 && p(1, 0) == 0 && p(2, 0) == 0 && p(2, 1) == 0 &&
-                       std::abs(p(2, 2) - 1) < 1e-9 && std::abs(p(0, 0) - p(1, 1)) <= 1e-6 * p(0, 0);
-  if (!upright)
-    throw std::invalid_argument("the projection matrix is no [f 0 cx t; 0 f cy 0; 0 0 1 0] with f > 0");
+  const bool upright = p(0, 0) > 0 && p(1, 1) > 0 && p(0, 1) == 0 && p(1, 0) == 0 && p(2, 0) == 0 &&
+                       p(2, 1) == 0 && std::abs(p(2, 2) - 1) < 1e-9;
+  if (!upright) throw std::invalid_argument("[f 0 cx t; 0 f cy t; 0 0 1 t] with f > 0");
+  if (std::abs(p(0, 0) - p(1, 1)) > 1e-6 * p(0, 0))
+    throw std::invalid_argument("equal fx and fy, as in a rectified view (here " + numberText(p(0, 0)) +
+                                " and " + numberText(p(1, 1)) + ")");
   return {p(0, 0), p(0, 2), p(1, 2), p(0, 3)};
+}
+
+RectifiedView rectifiedView(const YamlFields& fields, const std::string& key) {
+  try {
+    return rectifiedView(fields.matrix<3, 4>(key));
+  } catch (const std::invalid_argument& e) {
+    fields.fail(key, e.what());
+  }
 }
 
 StereoCalibration calibrationOf(const RectifiedView& left, const RectifiedView& right, double unit_m,
                                 cv::Size size) {
-  if (std::abs(left.focal_px - right.focal_px) > 1e-6 * left.focal_px ||
-      std::abs(left.cy_px - right.cy_px) > 1e-3)
-    throw std::invalid_argument(
-        "the projection matrices of the two views differ in f or cy; allowed: equal, for a "
-        "rectified pair");
+  const auto requireEqual = [](const char* field, double in_left, double in_right, double tolerance) {
+    if (std::abs(in_left - in_right) > tolerance)
+      throw std::invalid_argument("the projection matrices have " + std::string(field) + " " +
+                                  numberText(in_left) + " (left) and " + numberText(in_right) +
+                                  " (right); allowed: the same, for a rectified pair");
+  };
+  requireEqual("f", left.focal_px, right.focal_px, 1e-6 * left.focal_px);
+  requireEqual("cy", left.cy_px, right.cy_px, 1e-3);
   const double fb = left.offset - right.offset;
   if (fb == 0)
     throw std::invalid_argument(
-        "the projection matrices have no baseline (element 4 is 0 in both): the cameras "
+        "the projection matrices have no baseline (element 4 is the same in both): the cameras "
         "were not calibrated as a pair");
   if (fb < 0)
     throw std::invalid_argument(
@@ -105,21 +129,17 @@ StereoRig rigFromOpenCv(const YamlFields& intrinsics, const YamlFields& extrinsi
   setDistortion(rig.left, intrinsics, "D1");
   setMatrix(rig.right, intrinsics, "M2");
   setDistortion(rig.right, intrinsics, "D2");
-  for (const YamlFields* fields : {&intrinsics, &extrinsics}) {
-    const cv::Size size = readSize(*fields, "image_width", "image_height");
-    if (size.empty()) continue;
-    rig.left.width = rig.right.width = size.width;
-    rig.left.height = rig.right.height = size.height;
-  }
+  const cv::Size size = imageSize(intrinsics, extrinsics);
+  rig.left.width = rig.right.width = size.width;
+  rig.left.height = rig.right.height = size.height;
   rig.right_from_left_rotation = extrinsics.matrix<3, 3>("R");
   const cv::Matx31d t = extrinsics.matrix<3, 1>("T");
   rig.right_from_left_m = cv::Vec3d(t(0), t(1), t(2)) * unit_m;
   const bool stated =
       extrinsics.has("R1") || extrinsics.has("P1") || extrinsics.has("R2") || extrinsics.has("P2");
   if (stated) {
-    const cv::Size size = readSize(extrinsics, "rectified_width", "rectified_height");
-    rig.rectification = readRectification(extrinsics, unit_m,
-                                          size.empty() ? cv::Size(rig.left.width, rig.left.height) : size);
+    const cv::Size rectified = readSize(extrinsics, "rectified_width", "rectified_height");
+    rig.rectification = readRectification(extrinsics, unit_m, rectified.empty() ? size : rectified);
   }
   return rig;
 }

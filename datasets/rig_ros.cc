@@ -1,7 +1,5 @@
 // ROS camera_info: as camera_calibration_parsers write it, in OpenCV's syntax, or as `rostopic echo` prints
 // it.
-#include <stdexcept>
-
 #include "datasets/rig_formats.h"
 
 namespace pomona {
@@ -39,12 +37,7 @@ CameraInfo readCamera(const YamlFields& fields) {
   camera.distortion_model = modelOf(fields);
   setDistortion(camera, fields, fields.firstOf({"distortion_coefficients", "D", "d"}));
   info.rotation = fields.matrix<3, 3>(fields.firstOf({"rectification_matrix", "R", "r"}));
-  const std::string projection = fields.firstOf({"projection_matrix", "P", "p"});
-  try {
-    info.view = rectifiedView(fields.matrix<3, 4>(projection));
-  } catch (const std::invalid_argument&) {
-    fields.fail(projection, "[f 0 cx t 0 f cy 0 0 0 1 0] with f > 0");
-  }
+  info.view = rectifiedView(fields, fields.firstOf({"projection_matrix", "P", "p"}));
   return info;
 }
 

@@ -1,24 +1,18 @@
-#include <array>
-#include <charconv>
 #include <opencv2/core.hpp>
 #include <span>
 #include <stdexcept>
 
 #include "datasets/atomic_file.h"
+#include "datasets/input_file.h"
 #include "datasets/middlebury_calib.h"
 #include "pomona/rig.h"
 
 namespace pomona {
 namespace {
 
-// The shortest decimals that read back as the same numbers, with commas between them.
 std::string listOf(std::span<const double> values) {
   std::string list;
-  for (const double value : values) {
-    std::array<char, 32> digits{};
-    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-    list += (list.empty() ? "" : ", ") + std::string(digits.data(), end);
-  }
+  for (const double value : values) list += (list.empty() ? "" : ", ") + numberText(value);
   return list;
 }
 
@@ -78,11 +72,12 @@ std::string encodeCameraInfo(const char* name, const CameraModel& camera, const 
 void writeRos(const std::string& folder, const StereoRig& rig) {
   const Rectification rectification = rectificationOf(rig);
   const StereoCalibration& c = rectification.calibration;
-  if (rig.left.width == 0 || c.width != rig.left.width || c.height != rig.left.height)
+  if (rig.left.width == 0)
+    throw std::invalid_argument("the images' size is unknown; camera_info must state it");
+  if (c.width != rig.left.width || c.height != rig.left.height)
     throw std::invalid_argument("size of the rectified views is " + std::to_string(c.width) + "x" +
-                                std::to_string(c.height) +
-                                "; allowed in camera_info: the cameras', which must "
-                                "be known");
+                                std::to_string(c.height) + "; allowed in camera_info: the cameras', " +
+                                std::to_string(rig.left.width) + "x" + std::to_string(rig.left.height));
   const OutputFile files[] = {
       {"left.yaml", encodeCameraInfo("left", rig.left, rectification.left_rotation, projectionOf(c, false))},
       {"right.yaml",

@@ -28,6 +28,12 @@ std::string listText(const YAML::Node& list) {
   return std::to_string(list.size()) + " values (" + printable(values) + ")";
 }
 
+// OpenCV's letters for the type of a matrix's elements; those with several channels are no matrices of
+// numbers.
+bool isElementType(const std::string& text) {
+  return text.size() == 1 && std::string_view("ucwsifd").find(text[0]) != std::string_view::npos;
+}
+
 std::string sizeText(int rows, int cols) {
   return std::to_string(rows) + " x " + std::to_string(cols);
 }
@@ -131,6 +137,7 @@ std::vector<double> YamlFields::numbers(const std::string& key) const {
     const YamlFields matrix = map(key);
     constexpr int kMostRows = 1000;
     const int rows = matrix.integer("rows", 0, kMostRows), cols = matrix.integer("cols", 0, kMostRows);
+    if (matrix.has("dt") && !isElementType(matrix.text("dt"))) matrix.fail("dt", "one of u c w s i f d");
     const YAML::Node data = matrix.get("data");
     if (!data.IsSequence()) matrix.fail("data", "a list of numbers");
     matrix.collect("data", data, 1, values);

@@ -27,7 +27,8 @@ class YamlFields {
   std::string text(const std::string& key) const;
   double number(const std::string& key, double smallest, double largest) const;
   int integer(const std::string& key, int smallest, int largest) const;
-  /// The finite numbers of a list, a list of lists, or a matrix {rows, cols, data} (whose data must fit it).
+  /// The finite numbers of a list, a list of lists, or a matrix {rows, cols, [dt,] data} (whose data must fit
+  /// it).
   std::vector<double> numbers(const std::string& key) const;
   /// The same, row by row, where there are Rows * Cols of them.
   template <int Rows, int Cols>

@@ -64,6 +64,8 @@ TEST_F(MiddleburyCalib, RefusesNonsenseNamingLineAndKey) {
       {kCam0 + "baseline=100 mm\n", "line 2", "'100 mm'"},
       {kCam0 + "baseline=100\nwidth=0\n", "line 3", "width is '0'"},
       {kCam0 + "baseline=100\nheight=2.5\n", "line 3", "height is '2.5'"},
+      {kCam0 + "baseline=100\ndoffs=0\nwidth=640\n", "line 4", "ends without 'height='"},
+      {kCam0 + "baseline=100\ndoffs=0\nheight=480\n", "line 4", "ends without 'width='"},
       {kCam0 + "baseline=100\nndisp=\n", "line 3", "ndisp is nothing"},
       {kCam0 + "baseline=100\nisint=2\n", "line 3", "isint is '2'; allowed: a number from 0 to 1"},
       {kCam0 + "baseline=100\ndoffs=1e300\n", "line 3", "doffs"},

@@ -140,6 +140,24 @@ class RigTest(unittest.TestCase):
         self.accept("render", "planes", "--seed", "9", "--size", "480x360", "-o", "other")
         self.assertNotIn("verdict   aligned", self.accept("check", "scene/im0.png", "other/im1.png", status=3))
 
+    def test_check_of_one_view_twice(self):
+        left = self.board("left01.png")
+        self.assertIn("too alike", self.accept("check", left, left, status=3))
+        self.assertIn("nothing moves", self.accept("compute", left, left, "-o", "out.pfm", "--preset", "fast"))
+        # The same picture once more, its grays a little different: 16 bits, and another gain.
+        scene = ("render", "boxes", "--size", "480x360", "--bits", "16")
+        self.accept(*scene, "--read-noise", "3", "--seed", "4", "-o", "scene")
+        self.accept(*scene, "--read-noise", "5", "--exposure", "0.9", "--seed", "4", "-o", "again")
+        self.assertIn("too alike", self.accept("check", "scene/im0.png", "again/im0.png", status=3))
+
+    def test_calibration_of_one_camera_twice(self):
+        result = run("calibrate", self.board("left*.png"), self.board("left*.png"), "--square", "25mm", "-o", "rig.yml",
+                     folder=self.folder)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("left01.png, left02.png, left03.png and 9 more (left and right show the board in the same place",
+                      result.stderr)
+        self.assertEqual(os.listdir(self.folder), [])
+
     def test_check_of_exchanged_views(self):
         self.accept("render", "boxes", "--size", "480x360", "-o", "scene")
         self.assertIn("exchanged", self.accept("check", "scene/im1.png", "scene/im0.png", status=3))
@@ -157,6 +175,18 @@ class RigTest(unittest.TestCase):
         self.assertAlmostEqual(self.number_after(shown, "baseline"), 0.12, delta=1e-9)
         self.accept("rig", "convert", "seed-003-b60", "-o", "rig.yml")
         self.assertEqual(self.accept("rig", "show", "rig.yml"), self.accept("rig", "show", "seed-003-b60"))
+        # They do wherever a rig's file does.
+        self.accept("render", "planes", "--rig", "seed-003", "--lens", "-o", "scene")
+        views = ("scene/im0.png", "scene/im1.png")
+        self.accept("rectify", *views, "--rig", "seed-003", "-o", "by-name")
+        self.accept("rectify", *views, "--rig", "scene/rig.yml", "-o", "by-file")
+        self.accept("measure", *views, "--rig", "seed-003", "--preset", "fast", "--point", "640,360")
+        self.accept("compute", "by-name/im0.png", "by-name/im1.png", "--calib", "seed-003", "--preset", "fast",
+                    "-o", "out.pfm", "--depth", "depth.pfm")
+        for name in ("im0.png", "im1.png", "calib.txt"):
+            with open(os.path.join(self.folder, "by-name", name), "rb") as by_name, \
+                    open(os.path.join(self.folder, "by-file", name), "rb") as by_file:
+                self.assertEqual(by_name.read(), by_file.read(), name)
 
     def test_refusals(self):
         self.refuse("no file matches 'left*.jpg'", "calibrate", "left*.jpg", "right*.jpg", "--square", "2cm", "-o",
@@ -171,6 +201,10 @@ class RigTest(unittest.TestCase):
         self.refuse("absent.yml: cannot be read", "rig", "show", "absent.yml")
         self.refuse("baseline is 0.00011", "rig", "show", self.rig, "--unit", "mm")
         self.refuse("exchanged", "rig", "show", self.rig, "--cameras", "1", "0")
+        self.refuse("--cameras is 1 twice", "rig", "show", self.rig, "--cameras", "1", "1")
+        for verb in (("rig", "show", "seed-004"), ("rectify", "a.png", "b.png", "-o", "x", "--rig", "seed-004"),
+                     ("render", "planes", "-o", "x", "--rig", "seed-004")):
+            self.refuse("no such file; allowed: one, or a rig's name: middlebury, seed-003, seed-003-b60", *verb)
         self.refuse("--rig is missing", "render", "chessboard", "-o", "x")
         small = self.small_picture()
         self.refuse("allowed: the rig's 640x360", "rectify", small, small, "--rig", self.rig, "-o", "x")

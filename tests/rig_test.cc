@@ -113,6 +113,14 @@ TEST(Rig, RefusesWhatCannotBe) {
       {[&](StereoRig& r) { r.left.distortion[3] = nan; }, "left distortion[3] is nan"},
       {[](StereoRig& r) { r.left.width = -2; }, "left width is -2"},
       {[](StereoRig& r) { r.right.width = 640; }, "right size is 640x720"},
+      {[](StereoRig& r) { r.left.height = r.right.height = 0; }, "left size is 1280x0"},
+      {[](StereoRig& r) { r.left.width = r.right.width = 10; }, "left cx is 640.5"},
+      {[](StereoRig& r) { r.rectification = rectificationOf(r), r.rectification->calibration.width = 10; },
+       "left rectified cx is "},
+      {[](StereoRig& r) {
+         r.rectification = rectificationOf(r), r.rectification->calibration.doffs_px = 1e5;
+       },
+       "right rectified cx is "},
       {[](StereoRig& r) { r.right.distortion_model = DistortionModel::kFisheye; }, "distortion model"},
       {[](StereoRig& r) { r.right_from_left_rotation(0, 1) = 0.1; }, "R is"},
       {[](StereoRig& r) { r.right_from_left_rotation = -cv::Matx33d::eye(); }, "not a reflection"},
@@ -171,6 +179,14 @@ TEST_F(RigFile, OwnFormatKeepsEveryBit) {
     EXPECT_EQ(back.rectification->calibration.num_disparities,
               rig.rectification->calibration.num_disparities);
   }
+}
+
+TEST_F(RigFile, RosStatesASize) {
+  const StereoRig sizeless = rigOf({1000, 300, 200, 0.1, 0, 0, 0, 0});
+  expectContains(
+      messageOf<std::invalid_argument>([&] { writeRig(folder_ / "ros", sizeless, RigFormat::kRos); }),
+      "size is unknown");
+  EXPECT_EQ(folder_.fileCount(), 0);
 }
 
 TEST_F(RigFile, RosKeepsTheRectification) {
@@ -244,6 +260,8 @@ TEST_F(RigFile, OpenCvPairOfFilesWithoutSizeOrUnit) {
   put("in.yml", intrinsics);
   put("ex.yml", extrinsics);
   expectContains(messageOf([&] { readRigPair(folder_ / "in.yml", folder_ / "ex.yml"); }), "baseline is 83.2");
+  expectContains(messageOf([&] { readRigPair(folder_ / "in.yml", folder_ / "ex.yml", {.unit_m = 1e-6}); }),
+                 "in units of 1e-06 m, as asked for");
   const StereoRig rig = readRigPair(folder_ / "in.yml", folder_ / "ex.yml", {.unit_m = 1e-3});
   EXPECT_NEAR(rig.right_from_left_m[0], -0.0832, 1e-12);
   EXPECT_EQ(rig.left.width, 0);
@@ -251,6 +269,14 @@ TEST_F(RigFile, OpenCvPairOfFilesWithoutSizeOrUnit) {
   EXPECT_EQ(rig.right.distortion[4], 0.02);
   EXPECT_NEAR(readRig(put("one.yml", intrinsics + extrinsics.substr(10) + "length_unit: mm\n")).baselineM(),
               std::hypot(0.0832, 0.001), 1e-12);
+
+  const std::string size = "length_unit: mm\nimage_height: 960\nimage_width: ";
+  put("in.yml", intrinsics + size + "1280\n");
+  put("ex.yml", extrinsics + size + "640\n");
+  expectContains(messageOf([&] { readRigPair(folder_ / "in.yml", folder_ / "ex.yml"); }),
+                 "image_width is '640'; allowed: that of the intrinsics, 1280");
+  put("ex.yml", extrinsics + size + "1280\n");
+  EXPECT_EQ(readRigPair(folder_ / "in.yml", folder_ / "ex.yml").right.width, 1280);
 }
 
 const std::string kKalibr =
@@ -374,6 +400,8 @@ TEST_F(RigFile, RefusesNonsenseNamingFileAndField) {
       {"a.yml", "M1: {rows: 3, cols: 3, data: [1, 2]}\n", "M1.data holds 2 numbers; allowed: 3 x 3"},
       {"a.yml", "M1: {rows: 3, cols: -3, data: [1, 2]}\n", "M1.cols is '-3'"},
       {"a.yml", "M1: {rows: 3, cols: 3}\n", "'M1.data' is missing"},
+      {"a.yml", "M1: {rows: 3, cols: 3, dt: qq}\n", "M1.dt is 'qq'; allowed: one of u c w s i f d"},
+      {"a.yml", "M1: {rows: 3, rows: 3}\n", "a second value for 'M1.rows'"},
       {"a.yml", replaced(own, "T:", "X:"), "'T' is missing"},
       {"a.yml", replaced(own, "length_unit: m", "length_unit: furlong"), "length_unit is 'furlong'"},
       {"a.yml", replaced(own, "length_unit: m", "length_unit: mm"), "baseline is 0.000119906 m"},
@@ -395,13 +423,19 @@ TEST_F(RigFile, RefusesNonsenseNamingFileAndField) {
        "cam0.distortion_coeffs is 5 values (-0, 28, 0.07, 0.0002, 0.00002); allowed: 4"},
       {"k.yaml", replaced(kKalibr, "  - [0.0, 0.0, 0.0, 1.0]\n", ""), "cam1.T_cn_cnm1 is 3 values"},
       {"k.yaml", replaced(kKalibr, "T_cn_cnm1", "T_cam_imu"), "'cam1.T_cn_cnm1' is missing"},
-      {"k.yaml", replaced(kKalibr, "-0.11]", "-110]"), "baseline is 110 m"},
+      {"k.yaml", replaced(kKalibr, "-0.11]", "-110]"),
+       "baseline is 110 m; allowed: 0.001 to 10 m (perhaps the file counts millimetres: pomona rig convert "
+       "--unit mm)"},
       {"k.yaml", replaced(kKalibr, "[1.0, 0.0, 0.0, -0.11]", "[1.5, 0.0, 0.0, -0.11]"), "R is"},
       {"k.yaml", replaced(kKalibr, "-0.11]", "-0.0]"), "baseline is 0.000894427 m"},
       {"k.yaml", kKalibr.substr(0, kKalibr.find("cam1")), "'cam1' is missing"},
       {"k.yaml", kKalibr.substr(0, kKalibr.size() / 2), "k.yaml: line"},
       {"kitti.txt", replaced(kKittiRectified, "P3", "P9"), "ends without 'P3:'"},
       {"kitti.txt", replaced(kKittiRectified, "44.85728", "nan"), "P2 is"},
+      {"kitti.txt", replaced(kKittiRectified, "44.85728 0 721.5377", "44.85728 0 720"),
+       "allowed: equal fx and fy, as in a rectified view (here 721.5377 and 720)"},
+      {"kitti.txt", replaced(kKittiRectified, "-339.5242 0 721.5377 172.854", "-339.5242 0 721.5377 180"),
+       "have cy 172.854 (left) and 180 (right); allowed: the same"},
       {"kitti.txt", replaced(kKittiRectified, " 0.002729905", ""), "12 finite numbers"},
       {"kitti.txt", replaced(kKittiRectified, "-339.5242", "-339524.2"), "baseline is"},
       {"what.txt", "hello\n", "no known calibration"},

@@ -84,6 +84,8 @@ TEST(Calibration, ValidationNamesFieldValueAndRange) {
     c.*field = -1;
     expectContains(messageOf<std::invalid_argument>([&] { c.validate(); }), "is -1; allowed: 0");
   }
+  expectContains(messageOf<std::invalid_argument>([] { calibration(640, 0).validate(); }), "height is 0");
+  expectContains(messageOf<std::invalid_argument>([] { calibration(0, 480).validate(); }), "height is 480");
 }
 
 // The renderer knows the surface of every pixel; triangulating its disparity must lead back there.

@@ -12,7 +12,7 @@ struct StereoCalibration {
   double cy_px = 0;
   double baseline_m = 0;      ///< distance between the cameras, > 0
   double doffs_px = 0;        ///< cx_right - cx_left
-  int width = 0, height = 0;  ///< of the images the figures belong to; 0 if unknown
+  int width = 0, height = 0;  ///< of the images the figures belong to; both 0 if unknown
   int num_disparities = 0;    ///< a conservative bound on the disparities in the scene; 0 if unknown
 
   /// Throws std::invalid_argument naming the field, its value and what is allowed.

@@ -18,7 +18,7 @@ enum class DistortionModel {
 
 /// One camera and its lens. Pixel centres have whole coordinates.
 struct CameraModel {
-  int width = 0, height = 0;  ///< of the images the figures belong to; 0 if unknown
+  int width = 0, height = 0;  ///< of the images the figures belong to; both 0 if unknown
   double fx_px = 0, fy_px = 0;
   double cx_px = 0, cy_px = 0;
   DistortionModel distortion_model = DistortionModel::kPolynomial;
