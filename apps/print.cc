@@ -17,6 +17,12 @@ void print(const char* format, ...) {
   std::cout << line.data() << '\n';
 }
 
+std::string listText(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
 std::string angleText(double degrees, const char* positive, const char* negative) {
   std::array<char, 64> text;
   std::snprintf(text.data(), text.size(), "%.2f deg %s", std::abs(degrees),

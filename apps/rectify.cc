@@ -27,6 +27,7 @@ cv::Mat read(const std::string& path) {
 }
 
 void rectify(const RectifyArguments& arguments) {
+  checkOutputFolder(arguments.folder);
   const StereoRig rig = rigNamed(arguments.rig);
   Rectifier rectifier = [&] {
     try {

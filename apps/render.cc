@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/print.h"
 #include "apps/rig_options.h"
 #include "apps/scene_files.h"
 #include "apps/verbs.h"
@@ -17,6 +18,7 @@
 #include "datasets/named_scenes.h"
 #include "datasets/rendering/indoor.h"
 #include "datasets/rendering/named_rigs.h"
+#include "datasets/rendering/require_range.h"
 #include "datasets/rig_formats.h"
 #include "pomona/rig.h"
 
@@ -72,6 +74,8 @@ std::string numbered(const char* name, int number) {
 // Pictures to calibrate by, and the rig that they should give.
 void renderChessboards(const RenderArguments& arguments) {
   if (arguments.rig.empty()) throw std::invalid_argument("chessboard: --rig is missing");
+  requireRange("--square", arguments.square_mm, 0.1, 10'000);
+  requireRange("--noise", arguments.noise, 0, 100);
   const StereoRig rig = rigOf(arguments);
   const Chessboard board{9, 6, arguments.square_mm / 1000};
   const ChessboardRenderer left(rig.left, board), right(rig.right, board);
@@ -104,6 +108,7 @@ SceneDescription namedSceneFor(const RenderArguments& arguments) {
 }
 
 void renderToFolder(RenderArguments arguments) {
+  checkOutputFolder(arguments.folder);
   if (arguments.scene == "chessboard") return renderChessboards(arguments);
   const bool has_rig =
       arguments.scene == "orchard" || arguments.scene == "storefront" || arguments.scene == "indoor";
@@ -139,6 +144,19 @@ void renderToFolder(RenderArguments arguments) {
   writeFolder(arguments.folder, files);
   std::cout << arguments.folder << ": " << arguments.scene << ", " << pair.calibration.width << " x "
             << pair.calibration.height << ", disparities below " << pair.calibration.num_disparities << '\n';
+}
+
+// Those of sceneNames(), and those that have a maker of their own.
+std::vector<std::string> allSceneNames() {
+  std::vector<std::string> names = {"orchard", "storefront", "indoor", "chessboard"};
+  for (const std::string& name : sceneNames()) names.push_back(name);
+  return names;
+}
+
+void requireKnownScene(const std::string& scene) {
+  const std::vector<std::string> names = allSceneNames();
+  if (std::find(names.begin(), names.end(), scene) == names.end())
+    throw std::invalid_argument("scene is '" + scene + "'; allowed: " + listText(names));
 }
 
 // Options that only some scenes know are refused for the others.
@@ -187,15 +205,13 @@ void addSceneOptions(CLI::App& verb, RenderArguments& a) {
                                         "storefront: turn of the walls, degrees (default -45..45)");
   verb.add_option("--views", a.views, "chessboard: number of pairs (default 20)")->check(CLI::Range(1, 99));
   verb.add_option("--square", a.square_mm, "chessboard: side of a square, mm (default 20)");
-  verb.add_option("--noise", a.noise, "chessboard: standard deviation, 8-bit units (default 2)")
-      ->check(CLI::Range(0.0, 100.0));
+  verb.add_option("--noise", a.noise, "chessboard: standard deviation, 8-bit units (default 2)");
 }
 
 void addCameraOptions(CLI::App& verb, RenderArguments& a) {
-  std::string rigs;
-  for (const std::string& name : rigNames()) rigs += name + ", ";
   verb.add_option("--rig", a.rig,
-                  rigs + "or a file (see pomona rig); default for orchard, storefront and indoor: seed-003");
+                  listText(rigNames()) +
+                      ", or a file (see pomona rig); default for orchard, storefront and indoor: seed-003");
   verb.add_option("--size", a.size, "WIDTHxHEIGHT; default: the rig's, without one 640x480");
   verb.add_option("--disparities", a.num_disparities, "Largest disparity, about (default: width / 10)");
   verb.add_option("--blur", a.effects.blur_px, "Standard deviation of the blur, pixels");
@@ -215,9 +231,7 @@ void addRender(CLI::App& app) {
   CLI::App* verb =
       app.add_subcommand("render", "Render a made-up scene with exact ground truth (Middlebury layout)");
   const auto arguments = std::make_shared<RenderArguments>();  // lives as long as the callback
-  std::string names = "orchard, storefront, indoor, ";
-  for (const std::string& name : sceneNames()) names += name + ", ";
-  verb->add_option("scene", arguments->scene, names + "chessboard")->required();
+  verb->add_option("scene", arguments->scene, listText(allSceneNames()))->required();
   // CLI11 takes -1, and what does not fit, for the largest number there is.
   const auto isSeed = [](const std::string& text) -> std::string {
     constexpr std::size_t kDigits = 18;
@@ -230,6 +244,7 @@ void addRender(CLI::App& app) {
   verb->add_option("-o,--output", arguments->folder, "Folder for the files; made if it is not there")
       ->required();
   verb->callback([verb, arguments] {
+    requireKnownScene(arguments->scene);
     requireKnownOptions(*verb, arguments->scene);
     renderToFolder(*arguments);
   });

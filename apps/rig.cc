@@ -90,15 +90,12 @@ void addRigPaths(CLI::App& verb, RigPaths& paths) {
 }
 
 StereoRig rigNamed(const std::string& name_or_path, const RigFileOptions& options) {
-  std::string names;
-  for (const std::string& name : rigNames()) {
-    if (name == name_or_path) return namedRig(name);
-    names += (names.empty() ? "" : ", ") + name;
-  }
+  const std::vector<std::string> names = rigNames();
+  if (std::find(names.begin(), names.end(), name_or_path) != names.end()) return namedRig(name_or_path);
   std::error_code error;
   if (!std::filesystem::exists(name_or_path, error))
-    throw std::runtime_error(name_or_path +
-                             ": cannot be read: no such file; allowed: one, or a rig's name: " + names);
+    throw std::runtime_error(
+        name_or_path + ": cannot be read: no such file; allowed: one, or a rig's name: " + listText(names));
   return readRig(name_or_path, options);
 }
 

@@ -25,6 +25,14 @@ fs::path folderOf(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
+// Throws unless files can be made in `folder`; `path` is what is to be written there.
+void requireWritable(const fs::path& folder, const std::string& path) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) failToWrite(path, "there is no folder '" + folder.string() + "'");
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    failToWrite(path, "folder '" + folder.string() + "': " + std::strerror(errno));
+}
+
 // The bytes of one output under a temporary name; the name disappears with the object unless committed.
 class Temporary {
  public:
@@ -98,12 +106,22 @@ class Temporary {
 void checkOutputPath(const std::string& path) {
   std::error_code error;
   if (path.empty() || !fs::path(path).has_filename()) failToWrite(path, "this names no file");
-  const fs::path folder = folderOf(path);
-  if (!fs::is_directory(folder, error)) failToWrite(path, "there is no folder '" + folder.string() + "'");
-  if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    failToWrite(path, "folder '" + folder.string() + "': " + std::strerror(errno));
+  requireWritable(folderOf(path), path);
   if (fs::exists(path, error) && !fs::is_regular_file(path, error))
     failToWrite(path, "something that is not a regular file has this name");
+}
+
+void checkOutputFolder(const std::string& folder) {
+  std::error_code error;
+  if (folder.empty()) failToWrite("''", "this names no folder");
+  if (!fs::exists(folder, error)) {
+    const fs::path path(folder);  // "DIR/" has a parent DIR, which is itself
+    requireWritable(folderOf(path.has_filename() ? path : path.parent_path()), folder);
+  } else if (fs::is_directory(folder, error)) {
+    requireWritable(folder, folder);
+  } else {
+    failToWrite(folder, "this is a file; allowed: a folder, or a new name");
+  }
 }
 
 void writeFiles(std::span<const OutputFile> files) {
@@ -124,6 +142,7 @@ void writeFile(const std::string& path, std::string_view bytes) {
 }
 
 void writeFolder(const std::string& folder, std::span<const OutputFile> files) {
+  checkOutputFolder(folder);
   std::vector<OutputFile> inside;
   for (const OutputFile& file : files)
     inside.push_back({(fs::path(folder) / file.path).string(), file.bytes});

@@ -16,6 +16,9 @@ struct OutputFile {
 /// writable, and nothing but a regular file stands in its place.
 void checkOutputPath(const std::string& path);
 
+/// Throws std::runtime_error unless writeFolder() can be expected to make or fill `folder`.
+void checkOutputFolder(const std::string& folder);
+
 /// Writes all of `files`, or none: everything goes to temporary names (".pomona-*.tmp") beside the targets
 /// first, and is renamed only once all bytes are out. Existing files are replaced; symbolic links are
 /// followed. Throws std::runtime_error "path: reason" after removing whatever it had written.

@@ -71,9 +71,8 @@ cv::Mat readTruth(const std::string& path, cv::Size left) {
 }
 
 void requireCalibrationFits(const std::string& path, const StereoCalibration& calibration, cv::Size left) {
-  const cv::Size stated(calibration.width ? calibration.width : left.width,
-                        calibration.height ? calibration.height : left.height);
-  requireSize(path, stated, left, "is for images of ");
+  const cv::Size stated(calibration.width, calibration.height);
+  if (!stated.empty()) requireSize(path, stated, left, "is for images of ");
 }
 
 MiddleburyCalibration readCalibration(const std::string& path, cv::Size left) {

@@ -72,6 +72,25 @@ TEST(WriteFile, RefusesPlacesWhereNoFileCanBe) {
   }
 }
 
+TEST(WriteFolder, MakesItOrSaysWhyNot) {
+  const TemporaryFolder folder;
+  put(folder / "file", "x");
+  const OutputFile files[] = {{"a", "1"}, {"b", "2"}};
+  for (const std::string& path : {folder / "new", folder / "new", folder / "newer/"}) {
+    EXPECT_NO_THROW(checkOutputFolder(path));
+    writeFolder(path, files);
+    EXPECT_EQ(bytesOf(path + "/b"), "2");
+  }
+  for (const auto& [path, part] : {std::pair(folder / "file", "this is a file"),
+                                   {"", "names no folder"},
+                                   {folder / "absent/sub", "there is no folder"},
+                                   {folder / "file/sub", "there is no folder"}}) {
+    expectContains(messageOf([&] { checkOutputFolder(path); }), part);
+    expectContains(messageOf([&] { writeFolder(path, files); }), part);
+  }
+  EXPECT_EQ(folder.fileCount(), 3);
+}
+
 TEST(WriteFiles, OneBadOutputMeansNoOutput) {
   const TemporaryFolder folder;
   put(folder / "kept", "old");

@@ -391,7 +391,8 @@ class BadSideFiles(CommandTest):
         self.refuse("absent.txt", "--calib", "absent.txt")
         for text, part in (("", "no known calibration"), (cam0, "line 2: the file ends without 'baseline='"),
                            (cam0 + "baseline=-1\n", "line 3: baseline is '-1'"),
-                           (cam0 + "baseline=120\nwidth=1482\n", "is for images of 1482x64"),
+                           (cam0 + "baseline=120\nwidth=1482\nheight=64\n", "is for images of 1482x64"),
+                           (cam0 + "baseline=120\nwidth=96\n", "line 4: the file ends without 'height='"),
                            (cam0 + "baseline=120\nndisp=97\n", "ndisp of"),
                            ("\x00\xff\x01", "control character")):
             self.refuse(part, "--calib", self.put("calib.txt", text))
@@ -459,7 +460,12 @@ class BadOptions(CommandTest):
         self.assert_left_alone([])
 
     def test_render(self):
-        for arguments, part in ((("forest",), "forest"), (("boxes", "--size", "640"), "640"),
+        for arguments, part in ((("forest",), "scene is 'forest'; allowed: orchard, storefront, indoor, chessboard, boxes, "
+                                              "planes, spheres, trees"), (("boxes", "--size", "640"), "640"),
+                                (("boxes", "--right-shift", "nan"), "right_shift_px is nan; allowed: -480 to 480"),
+                                (("boxes", "--right-shift", "481"), "right_shift_px is 481"),
+                                (("chessboard", "--rig", "seed-003", "--noise", "nan"), "--noise is nan"),
+                                (("chessboard", "--rig", "seed-003", "--square", "-5"), "--square is -5"),
                                 (("boxes", "--size", "8x8"), "width is 8"),
                                 (("boxes", "--size", "64x99999"), "height is 99999"),
                                 (("boxes", "--disparities", "999"), "999"),
@@ -479,8 +485,12 @@ class BadOptions(CommandTest):
                                 (("storefront", "--yaw", "-70..0"), "least_yaw_deg is -70")):
             self.assert_refused(self.run_command("render", *arguments, "-o", "scene"), part)
         self.put("file", "x")
-        self.assert_refused(self.run_command("render", "boxes", "--size", "16x16", "-o", "file"), "file")
-        self.assert_refused(self.run_command("render", "boxes", "--size", "16x16", "-o", "no/where"), "no/where")
+        for output, part in (("file", "file: cannot be written: this is a file; allowed: a folder"),
+                             ("file/sub", "there is no folder 'file'"), ("no/where", "there is no folder 'no'"),
+                             ("", "this names no folder")):
+            for verb in (("render", "boxes", "--size", "16x16"),
+                         ("rectify", self.left, self.right, "--rig", self.calib)):
+                self.assert_refused(self.run_command(*verb, "-o", output), part)
         for seed in ("x", "-1", "1.5", "1" + 18 * "0"):
             self.assert_refused(self.run_command("render", "boxes", "--seed", seed, "-o", "scene"),
                                 f"--seed: is '{seed}'; allowed: a whole number")

@@ -117,6 +117,7 @@ void takeThroughLenses(const StereoRig& rig, SceneDescription& scene) {
 }
 
 void shiftRightView(double rows_px, SceneDescription& scene) {
+  requireRange("right_shift_px", rows_px, -scene.height, scene.height);
   if (!scene.right_camera) {
     const cv::Vec2d principal = principalOf(scene);
     scene.right_camera = PictureCamera{CameraModel{scene.width, scene.height, scene.focal_px, scene.focal_px,

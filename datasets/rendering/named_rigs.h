@@ -31,6 +31,7 @@ SceneDescription sceneFor(const StereoRig& rig);
 void takeThroughLenses(const StereoRig& rig, SceneDescription& scene);
 
 /// Lets the right camera look down so that its picture lies `rows_px` rows higher, as where rows don't match.
+/// Throws std::invalid_argument for more rows than there are.
 void shiftRightView(double rows_px, SceneDescription& scene);
 
 }  // namespace pomona
