@@ -1,5 +1,6 @@
 // `pomona measure`: how far away is what the given regions show?
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -88,14 +89,17 @@ std::vector<Request> requestsOf(const MeasureArguments& arguments, cv::Size size
 MeasureOptions optionsOf(const MeasureArguments& arguments) {
   MeasureOptions options;
   if (arguments.shape == "surface") options.shape = ObjectShape::kSurface;
-  if (!arguments.radius.empty()) {
-    constexpr const char* kForm = "RADIUS,SIGMA in mm, both above 0";
-    const Numbers n = numbersOf("--radius", arguments.radius, 2, kForm);
-    if (n[0] <= 0 || n[1] <= 0)
-      throw std::invalid_argument("--radius is '" + arguments.radius + "'; allowed: " + kForm);
-    options.radius_m = n[0] / 1000;
-    options.radius_sigma_m = n[1] / 1000;
-  }
+  if (arguments.radius.empty()) return options;
+  if (options.shape == ObjectShape::kSurface)
+    throw std::invalid_argument("--radius: --shape is 'surface'; allowed: sphere");
+  // What lies outside is in metres, or was not meant for an object within a robot's reach.
+  constexpr const char* kForm = "RADIUS,SIGMA in mm, from 1 and 0.01 to 1000, for example 38,6";
+  constexpr double kSmallest_mm = 1, kSmallestSigma_mm = 0.01, kLargest_mm = 1000;
+  const Numbers n = numbersOf("--radius", arguments.radius, 2, kForm);
+  if (n[0] < kSmallest_mm || n[1] < kSmallestSigma_mm || std::max(n[0], n[1]) > kLargest_mm)
+    throw std::invalid_argument("--radius is '" + arguments.radius + "'; allowed: " + kForm);
+  options.radius_m = n[0] / 1000;
+  options.radius_sigma_m = n[1] / 1000;
   return options;
 }
 
@@ -107,8 +111,18 @@ Json listOf(const cv::Vec3d& v) {
   return {v[0], v[1], v[2]};
 }
 
-Json jsonOf(const std::string& name, const ObjectMeasurement& m) {
-  if (!m.ok()) return {{"region", name}, {"measured", false}, {"reason", explain(m.failure)}};
+// A wrong radius shows as disparities that do not agree: on none of that size.
+std::string reasonOf(const ObjectMeasurement& m, const MeasureOptions& options) {
+  const std::string reason(explain(m.failure));
+  if (m.failure != MeasureFailure::kScattered || options.radius_m == 0) return reason;
+  std::array<char, 80> text;
+  std::snprintf(text.data(), text.size(), ", a sphere's of radius %g +- %g mm", 1000 * options.radius_m,
+                1000 * options.radius_sigma_m);
+  return reason + text.data();
+}
+
+Json jsonOf(const std::string& name, const ObjectMeasurement& m, const MeasureOptions& options) {
+  if (!m.ok()) return {{"region", name}, {"measured", false}, {"reason", reasonOf(m, options)}};
   Json entry{{"region", name},
              {"measured", true},
              {"distance_m", m.distance_m},
@@ -191,7 +205,8 @@ void measure(const MeasureArguments& arguments) {
 
   Json entries = Json::array();
   for (const auto& [text, region] : requests)
-    entries.push_back(jsonOf(text, measureObject(result, *inputs.calibration, region, measure_options)));
+    entries.push_back(
+        jsonOf(text, measureObject(result, *inputs.calibration, region, measure_options), measure_options));
   for (std::size_t i = 0; i < points.size(); ++i)
     entries.push_back(jsonOf("point " + arguments.points[i],
                              measurePoint(result, *inputs.calibration, points[i][0], points[i][1])));
@@ -199,12 +214,18 @@ void measure(const MeasureArguments& arguments) {
     std::cout << entries.dump(2) << '\n';
   else
     for (const Json& entry : entries) std::cout << lineOf(entry) << '\n';
+  if (std::none_of(entries.begin(), entries.end(),
+                   [](const Json& entry) { return entry["measured"].get<bool>(); }))
+    throw CLI::RuntimeError(kNegativeVerdict);
 }
 
 }  // namespace
 
 void addMeasure(CLI::App& app) {
-  CLI::App* verb = app.add_subcommand("measure", "Measure how far away an object is, and how sure that is");
+  CLI::App* verb =
+      app.add_subcommand("measure",
+                         "Measure how far away objects are, and how sure that is: exit status 3 if "
+                         "none could be measured");
   const auto arguments = std::make_shared<MeasureArguments>();  // lives as long as the callback
   ComputePaths& paths = arguments->paths;
   verb->add_option("left", paths.left, "Left image, which the regions belong to")->required();
@@ -223,7 +244,7 @@ void addMeasure(CLI::App& app) {
   add("--polygon", arguments->polygons, "X,Y,X,Y,X,Y,...: its corners");
   add("--mask", arguments->masks, "8-bit gray image, not 0 on the object");
   add("--point", arguments->points, "X,Y: a single pixel");
-  verb->add_option("--radius", arguments->radius, "RADIUS,SIGMA to expect, in mm, e.g. 38,5");
+  verb->add_option("--radius", arguments->radius, "RADIUS,SIGMA to expect of spheres, in mm, e.g. 38,6");
   verb->add_option("--shape", arguments->shape, "sphere (default), or surface: anything")
       ->check(CLI::IsMember({"sphere", "surface"}));
   verb->add_flag("--json", arguments->json, "Print JSON");

@@ -256,6 +256,11 @@ class GoodInput(CommandTest):
         self.assertNotRegex(corners, "-[0-9.]+ deg")
         outside = self.run_command(*views, "--box", "500,500,9,9")
         self.assertEqual(outside.stdout, "box 500,500,9,9: not measured: the region holds no pixel of the image\n")
+        self.assertEqual((outside.returncode, outside.stderr), (3, ""))
+        self.assertEqual(self.run_command(*views, "--point", f"{x},{y}", "--box", "500,500,9,9", "--json").returncode, 0)
+        scattered = self.run_command(*views, "--box", box, "--radius", "3.8,0.6")  # centimetres
+        self.assertEqual(scattered.returncode, 3)
+        self.assertIn("agree on one surface, a sphere's of radius 3.8 +- 0.6 mm", scattered.stdout)
 
     def test_formats_by_extension_and_flag(self):
         self.assert_accepted(self.compute("-o", "kitti.png", "--state", "state.pgm", "--confidence", "c.pfm"))
@@ -453,7 +458,11 @@ class BadOptions(CommandTest):
                                 (("--mask", "absent.png"), "absent.png"), (("--point", "5"), "--point"),
                                 (("--box", "1,1,9,9", "--radius", "30"), "--radius"),
                                 (("--box", "1,1,9,9", "--radius", "-30,4"), "--radius is '-30,4'; allowed"),
-                                (("--box", "1,1,9,9", "--radius", "0,0"), "--radius is '0,0'; allowed")):
+                                (("--box", "1,1,9,9", "--radius", "0,0"), "--radius is '0,0'; allowed"),
+                                (("--box", "1,1,9,9", "--radius", "0.038,0.006"), "allowed: RADIUS,SIGMA in mm, from 1"),
+                                (("--box", "1,1,9,9", "--radius", "38,0.006"), "allowed: RADIUS,SIGMA in mm, from 1"),
+                                (("--box", "1,1,9,9", "--radius", "38000,6000"), "allowed: RADIUS,SIGMA in mm, from 1"),
+                                (("--box", "1,1,9,9", "--radius", "38,6", "--shape", "surface"), "--shape is 'surface'")):
             self.assert_refused(self.measure(*arguments), part)
         self.assert_refused(self.measure(), "--box", 2)
         self.assert_refused(self.run_command("measure", self.left, self.right, "--box", "1,1,9,9"), "--calib", 2)
