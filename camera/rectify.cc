@@ -19,17 +19,6 @@ std::string sizeText(cv::Size size) {
   return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
 
-void requireView(const char* name, const cv::Mat& view, cv::Size size) {
-  const bool good_type =
-      (view.depth() == CV_8U || view.depth() == CV_16U) && (view.channels() == 1 || view.channels() == 3);
-  if (!good_type)
-    throw std::invalid_argument(std::string(name) + " is of type " + cv::typeToString(view.type()) +
-                                "; allowed: CV_8U or CV_16U with 1 or 3 channels");
-  if (view.size() != size)
-    throw std::invalid_argument(std::string(name) + " is " + sizeText(view.size()) + "; allowed: the rig's " +
-                                sizeText(size) + " (calibration and camera must run at the same resolution)");
-}
-
 #if CV_SIMD128
 /// The mean of four BGR pixels, two above and the two below them, all channels at once: first of the rows (at
 /// most 255 * 256, which fits 16 bits), then of the columns; no more is rounded than in one sum of all four.
@@ -49,6 +38,17 @@ inline cv::v_int32x4 blendColors(const std::uint8_t* above, const std::uint8_t* 
 #endif
 
 }  // namespace
+
+void requireView(const char* name, const cv::Mat& view, cv::Size size) {
+  const bool good_type =
+      (view.depth() == CV_8U || view.depth() == CV_16U) && (view.channels() == 1 || view.channels() == 3);
+  if (!good_type)
+    throw std::invalid_argument(std::string(name) + " is of type " + cv::typeToString(view.type()) +
+                                "; allowed: CV_8U or CV_16U with 1 or 3 channels");
+  if (view.size() != size)
+    throw std::invalid_argument(std::string(name) + " is " + sizeText(view.size()) + "; allowed: the rig's " +
+                                sizeText(size) + " (calibration and camera must run at the same resolution)");
+}
 
 Rectifier::Rectifier(const StereoRig& rig) {
   const Rectification rectification = rectificationOf(rig);

@@ -10,6 +10,10 @@
 
 namespace pomona {
 
+/// Throws std::invalid_argument, calling the view `name`, unless it is CV_8U or CV_16U with 1 or 3 channels,
+/// and of the rig's `size`.
+void requireView(const char* name, const cv::Mat& view, cv::Size size);
+
 /// Where each rectified pixel comes from, worked out once; every frame is then one look-up and a bilinear
 /// mean per pixel, in whole numbers (weights of 1/256 px): the same bytes for any number of threads.
 /// Allocates only when frames change their type.

@@ -57,6 +57,9 @@ struct StereoEngine::State {
 cv::Mat StereoEngine::State::rectify(const cv::Mat& left_view, const cv::Mat& right_view,
                                      const cv::Mat& mask) {
   if (!rectifier) {
+    if (calibration && calibration->width > 0)
+      for (const auto& [name, view] : {std::pair("left", &left_view), std::pair("right", &right_view)})
+        requireView(name, *view, {calibration->width, calibration->height});
     left = left_view;
     right = right_view;
     return mask;

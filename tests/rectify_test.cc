@@ -263,6 +263,14 @@ TEST(EngineWithRig, RectifiedRigLeavesViewsAlone) {
   EXPECT_EQ(cv::norm(a.confidence, b.confidence, cv::NORM_INF), 0);
   EXPECT_THROW(plain.calibration(), std::logic_error);
   EXPECT_EQ(engine.calibration().baseline_m, pair.calibration.baseline_m);
+
+  // Views of another size have another focal length: their distances would be wrong.
+  const cv::Mat quarter = pair.left.image(cv::Rect(0, 0, 80, 50));
+  expectContains(messageOf<std::invalid_argument>([&] { engine.compute(quarter, quarter); }),
+                 "left is 80x50; allowed: the rig's 160x100");
+  StereoCalibration sizeless = pair.calibration;
+  sizeless.width = sizeless.height = 0;
+  EXPECT_NO_THROW(StereoEngine(options, rigOf(sizeless)).compute(quarter, quarter));
 }
 
 }  // namespace

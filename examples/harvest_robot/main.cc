@@ -15,15 +15,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <future>
-#include <opencv2/highgui.hpp>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
+#include <opencv2/core.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "drawing.h"
 #include "pair_stream.h"
 #include "picking_list.h"
 
@@ -34,8 +33,8 @@ double metresFromEnvironment(const char* name, double otherwise) {
   if (!text) return otherwise;
   char* end = nullptr;
   const double metres = std::strtod(text, &end);
-  if (end == text || *end != '\0' || !std::isfinite(metres) || metres <= 0)
-    throw std::runtime_error(cv::format("%s is '%s'; allowed: metres, above 0", name, text));
+  if (end == text || *end != '\0' || !(metres >= 0.01 && metres <= 1000))
+    throw std::runtime_error(cv::format("%s is '%s'; allowed: 0.01 to 1000, in metres", name, text));
   return metres;
 }
 
@@ -70,20 +69,6 @@ void print(int frame, const std::vector<Pick>& picks) {
                   std::string(explain(where.failure)).c_str());
 }
 
-cv::Mat draw(const cv::Mat& bgr, const std::vector<Pick>& picks) {
-  cv::Mat picture = bgr.clone();
-  for (const auto& [box, where] : picks) {
-    const cv::Scalar color = where.ok() ? cv::Scalar(255, 255, 255) : cv::Scalar(128, 128, 128);
-    cv::rectangle(picture, box, color, 2);
-    const std::string text = where.ok() ? cv::format("%.0f +- %.0f mm", 1000 * where.distance_m,
-                                                     std::ceil(2000 * where.distance_sigma_m))
-                                        : "?";
-    cv::putText(picture, text, box.tl() + cv::Point(0, -6), cv::FONT_HERSHEY_SIMPLEX, 0.5, color, 1,
-                cv::LINE_AA);
-  }
-  return picture;
-}
-
 using Clock = std::chrono::steady_clock;
 
 double millisecondsSince(Clock::time_point start) {
@@ -101,18 +86,7 @@ void printSpeed(std::vector<double> latencies_ms, double loop_ms) {
               1000 * latencies_ms.size() / loop_ms, quantile(0.5), quantile(0.99));
 }
 
-// False if it is time to stop.
-bool show(const std::string& drawing, int frame, const cv::Mat& picture) {
-  if (drawing == "window") {
-    cv::imshow("harvest", picture);
-    return cv::waitKey(1) != 27;  // escape
-  }
-  const std::string file = cv::format("%s/frame%04d.jpg", drawing.c_str(), frame);
-  if (!cv::imwrite(file, picture)) throw std::runtime_error(file + ": cannot be written");
-  return true;
-}
-
-int run(const std::string& rig_path, const std::string& source, const std::string& drawing) {
+int run(const std::string& rig_path, const std::string& source, const std::optional<Drawing>& drawing) {
   const pomona::StereoRig rig = pomona::readRig(rig_path);
   pomona::StereoEngine engine(
       optionsFor(rectificationOf(rig).calibration, metresFromEnvironment("HARVEST_NEAREST_M", 0.57),
@@ -138,10 +112,11 @@ int run(const std::string& rig_path, const std::string& source, const std::strin
     if (result.rowsAreOff())
       std::printf("frame %d  warning: the right view is %+.1f rows off%s: the rig wants a new calibration\n",
                   frame, result.row_offset_px, result.rows_aligned ? ", and was moved" : "");
-    if (!drawing.empty()) go_on = show(drawing, frame, draw(engine.leftView(), picks));
+    if (drawing) go_on = drawing->show(frame, engine.leftView(), picks);
     if (frame == 0) loop_start = Clock::now();
     loop_ms = millisecondsSince(loop_start);
   }
+  if (frame == 0) throw std::runtime_error(source + ": holds no frame");
   printSpeed(std::move(latencies_ms), loop_ms);
   return 0;
 }
@@ -154,7 +129,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    return run(argv[1], argv[2], argc == 4 ? argv[3] : "");
+    return run(argv[1], argv[2], argc == 4 ? std::optional<Drawing>(argv[3]) : std::nullopt);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "harvest_robot: %s\n", e.what());
     return 1;

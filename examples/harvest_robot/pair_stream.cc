@@ -1,6 +1,7 @@
 #include "pair_stream.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
@@ -29,8 +30,10 @@ class FolderStream : public PairStream {
   std::vector<std::string> namesOf(const std::string& side) const {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
-      const std::string name = entry.path().filename().string(),
-                        extension = entry.path().extension().string();
+      const std::string name = entry.path().filename().string();
+      std::string extension = entry.path().extension().string();
+      std::transform(extension.begin(), extension.end(), extension.begin(),
+                     [](unsigned char c) { return std::tolower(c); });
       if (name.starts_with(side) && (extension == ".png" || extension == ".jpg" || extension == ".bmp"))
         names.push_back(name.substr(side.size()));
     }
@@ -58,7 +61,9 @@ class FolderStream : public PairStream {
 class VideoStream : public PairStream {
  public:
   explicit VideoStream(const std::string& source) {
-    const bool is_camera = source.find_first_not_of("0123456789") == source.npos;
+    constexpr std::size_t kMostDigits = 4;
+    const bool is_camera = !source.empty() && source.size() <= kMostDigits &&
+                           source.find_first_not_of("0123456789") == source.npos;
     if (!(is_camera ? video_.open(std::stoi(source)) : video_.open(source)))
       throw std::runtime_error(source + ": no folder, no video and no camera");
   }

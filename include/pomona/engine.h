@@ -18,8 +18,9 @@ class StereoEngine {
   /// For a camera whose views are not rectified: compute() takes them as they come and rectifies them, by
   /// maps that are made here. All maps of the result then belong to the rectified left view, leftView().
   /// Pixels that the left camera does not see count as masked. For a rig that is rectified as it comes,
-  /// nothing is done to the views. Throws std::invalid_argument if `options` is not valid or the rig cannot
-  /// be rectified: cameras one above the other, one behind the other or exchanged, an unknown image size.
+  /// nothing is done to the views, but their size must be the rig's, where it is known. Throws
+  /// std::invalid_argument if `options` is not valid or the rig cannot be rectified: cameras one above the
+  /// other, one behind the other or exchanged, an unknown image size.
   StereoEngine(const Options& options, const StereoRig& rig);
   ~StereoEngine();
   StereoEngine(StereoEngine&&) noexcept;

@@ -23,9 +23,10 @@ def run(*arguments, **options):
     return subprocess.run(arguments, check=True, capture_output=True, text=True, timeout=300, **options).stdout
 
 
-def refusal(*arguments, **environment):
-    done = subprocess.run(arguments, capture_output=True, text=True, timeout=300, env={**os.environ, **environment})
-    assert done.returncode == 1, (done.returncode, done.stderr)
+def refusal(*arguments, status=1, **environment):
+    merged = {name: value for name, value in {**os.environ, **environment}.items() if value is not None}
+    done = subprocess.run(arguments, capture_output=True, text=True, timeout=300, env=merged)
+    assert done.returncode == status and done.stdout == "", done
     return done.stderr
 
 
@@ -101,8 +102,18 @@ with tempfile.TemporaryDirectory() as folder:
     assert max(found.values()) < 0.01, found
 
     for nearest, part in (("abc", "HARVEST_NEAREST_M is 'abc'"), ("3", "HARVEST_FARTHEST_M is 3 to 1.98 m"),
-                          ("0.001", "at most 1024 disparities")):
+                          ("0.02", "at most 1024 disparities"), ("1e-300", "is '1e-300'; allowed: 0.01 to 1000")):
         assert part in refusal(HARVEST, calibration, frames, HARVEST_NEAREST_M=nearest), part
+    for source in ("99999999999", ""):
+        assert f"{source}: no folder, no video and no camera" in refusal(HARVEST, calibration, source), source
+    for place in (os.path.join(folder, "absent"), calibration):
+        assert "is no folder that can be written to" in refusal(HARVEST, calibration, frames, place), place
+    assert "there is no display" in refusal(HARVEST, calibration, frames, "window", DISPLAY=None, WAYLAND_DISPLAY=None)
+    capitals = os.path.join(folder, "capitals")
+    os.mkdir(capitals)
+    for name in ("left0.PNG", "right0.PNG"):
+        shutil.copy(os.path.join(frames, name.lower()[:-4] + ".png"), os.path.join(capitals, name))
+    assert "frame 0" in run(HARVEST, calibration, capitals)
     unequal = os.path.join(folder, "unequal")
     os.mkdir(unequal)
     for name in ("left0.png", "left1.png", "right1.png", "right2.png"):  # as many of each side, but no pairs
@@ -110,6 +121,9 @@ with tempfile.TemporaryDirectory() as folder:
     assert "left0.png has no right0.png" in refusal(HARVEST, calibration, unequal)
     os.remove(os.path.join(unequal, "left0.png"))
     assert "right2.png has no left2.png" in refusal(HARVEST, calibration, unequal)
+    assert "usage: compute_disparity LEFT" in refusal(COMPUTE, status=2)
+    views = (os.path.join(frames, "left0.png"), os.path.join(frames, "right0.png"))
+    assert "absent/out.png: cannot be written" in refusal(COMPUTE, *views, "absent/out.png")
     assert "compute_disparity: left is an empty image" in refusal(COMPUTE, "absent.png", "absent.png", "out.png")
 
     out = os.path.join(folder, "disparity.png")
