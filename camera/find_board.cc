@@ -27,11 +27,12 @@ double smallestSpacing(const std::vector<cv::Point2f>& corners, int columns) {
 
 bool findCorners(const cv::Mat& gray, const BoardSize& board, std::vector<cv::Point2f>& corners) {
   const cv::Size size(board.columns, board.rows);
-  // The former always ends in a fraction of a second; the latter finds some boards more, but where noise
-  // makes many small quadrangles it takes minutes.
+  // Some boards are found only as they are, others only with their grays stretched. (OpenCV's other finder,
+  // findChessboardCorners, finds no more of ours, and takes minutes for a board of another size before
+  // noise.)
   const bool found = cv::findChessboardCornersSB(gray, size, corners, cv::CALIB_CB_EXHAUSTIVE) ||
-                     cv::findChessboardCorners(gray, size, corners,
-                                               cv::CALIB_CB_ADAPTIVE_THRESH | cv::CALIB_CB_NORMALIZE_IMAGE);
+                     cv::findChessboardCornersSB(gray, size, corners,
+                                                 cv::CALIB_CB_EXHAUSTIVE | cv::CALIB_CB_NORMALIZE_IMAGE);
   if (!found) return false;
   // The window must not reach the next corner, or that one draws the estimate towards itself.
   constexpr double kShareOfSpacing = 0.2;
@@ -69,9 +70,11 @@ BoardView findBoard(const std::string& name, const cv::Mat& left, const cv::Mat&
   const bool in_left = findCorners(grayOf(left), board, view.left);
   const bool in_right = findCorners(grayOf(right), board, view.right);
   if (!in_left || !in_right) {
-    view.rejected = std::string("no complete board in ") + (in_left    ? "the right image"
-                                                            : in_right ? "the left image"
-                                                                       : "either image");
+    view.rejected = "no complete board of " + std::to_string(board.columns) + "x" +
+                    std::to_string(board.rows) + " inner corners in " +
+                    (in_left    ? "the right image"
+                     : in_right ? "the left image"
+                                : "either image");
     return view;
   }
   // On a board that looks the same upside down, the two searches may begin at opposite corners.

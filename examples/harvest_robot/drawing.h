@@ -9,8 +9,8 @@
 
 class Drawing {
  public:
-  /// `target`: a folder for one picture per frame, or "window". Throws std::runtime_error for a folder that cannot
-  /// be written to: better now than after the first frame.
+  /// `target`: a folder for one picture per frame, or "window". Throws std::runtime_error for a folder that
+  /// cannot be written to: better now than after the first frame.
   explicit Drawing(const std::string& target);
 
   /// False if it is time to stop: somebody pressed escape in the window.
