@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/compute_files.h"
 #include "apps/muted_stream.h"
 #include "apps/print.h"
 #include "apps/progress.h"
@@ -42,10 +43,13 @@ BoardSize parseBoard(const CalibrateArguments& arguments) {
   const std::size_t unit = std::min(square.find_first_of("cm"), square.size());
   const std::string name = square.substr(unit);
   const double unit_m = name == "mm" ? 0.001 : name == "cm" ? 0.01 : name == "m" ? 1 : 0;
-  if (!parseNumber(square.substr(0, unit), board.square_m) || unit_m == 0 || !(board.square_m > 0))
-    throw std::invalid_argument("--square is " + pomona::quoted(square) +
-                                "; allowed: a length above 0 in mm, cm or m, for example 20mm");
+  constexpr double kSmallest_m = 0.001, kLargest_m = 1;
+  const bool parsed = parseNumber(square.substr(0, unit), board.square_m);
   board.square_m *= unit_m;
+  if (!parsed || !(board.square_m >= kSmallest_m && board.square_m <= kLargest_m))
+    throw std::invalid_argument(
+        "--square is " + pomona::quoted(square) +
+        "; allowed: a length from 1mm to 1m with its unit (mm, cm or m), for example 20mm");
   return board;
 }
 
@@ -154,16 +158,18 @@ void printReport(const CalibrationReport& report) {
   for (const std::string& warning : report.warnings) print("warning    %s", warning.c_str());
 }
 
+void requireOutputs(const CalibrateArguments& arguments, const std::vector<Pair>& pairs) {
+  std::vector<PlannedOutput> outputs = {{"--output", arguments.output, {".yml", ".yaml"}}};
+  if (!arguments.coverage.empty()) outputs.push_back({"--coverage", arguments.coverage, {".png"}});
+  std::vector<std::string> pictures;
+  for (const auto& [left, right] : pairs) pictures.insert(pictures.end(), {left, right});
+  checkOutputs(outputs, pictures);
+}
+
 void calibrate(const CalibrateArguments& arguments) {
   const BoardSize board = parseBoard(arguments);
-  checkOutputPath(arguments.output);
-  if (!arguments.coverage.empty()) {
-    checkOutputPath(arguments.coverage);
-    if (extensionOf(arguments.coverage) != ".png")
-      throw std::invalid_argument("--coverage is " + pomona::quoted(arguments.coverage) +
-                                  "; allowed: a .png file");
-  }
   const std::vector<Pair> pairs = pairsOf(arguments);
+  requireOutputs(arguments, pairs);
   cv::Size image_size;
   const std::vector<BoardView> views = findBoards(pairs, board, image_size);
   if (!arguments.coverage.empty())

@@ -14,6 +14,9 @@ namespace {
 
 constexpr int kBadInput = 1;
 constexpr int kBadUsage = 2;
+const std::string kVerbs =
+    "compute, measure, eval, compare, range, plugins, calibrate, rig, rectify, check, render or info (see "
+    "pomona --help)";
 
 int fail(std::string message, int status) {
   std::replace(message.begin(), message.end(), '\n', ' ');
@@ -44,16 +47,17 @@ int main(int argc, char** argv) {
   pomona::addInfo(app);
   try {
     app.parse(argc, argv);
-    if (app.get_subcommands().empty())
-      return fail(
-          "what to do? compute, measure, eval, compare, range, plugins, calibrate, rig, rectify, check, "
-          "render or info (see pomona --help)",
-          kBadUsage);
+    if (app.get_subcommands().empty()) return fail("what to do? " + kVerbs, kBadUsage);
     if (!std::cout.flush()) return fail("standard output: cannot be written", kBadInput);
   } catch (const CLI::ConversionError& e) {
     return fail(std::string(e.what()) + "; allowed: a number (of 32 bits, where whole)", kBadInput);
   } catch (const CLI::ValidationError& e) {
     return fail(e.what(), kBadInput);
+  } catch (const CLI::ExtrasError& e) {
+    const bool is_verb = app.get_subcommands().empty() && argv[1][0] != '-';
+    return fail(is_verb ? std::string("there is no verb '") + argv[1] + "'; allowed: " + kVerbs
+                        : std::string(e.what()) + " (see pomona --help)",
+                kBadUsage);
   } catch (const CLI::RuntimeError& e) {  // a verb's verdict, which it has printed
     return std::cout.flush() ? e.get_exit_code() : fail("standard output: cannot be written", kBadInput);
   } catch (const CLI::ParseError& e) {

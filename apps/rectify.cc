@@ -1,11 +1,14 @@
 #include "camera/rectify.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "apps/compute_files.h"
 #include "apps/muted_stream.h"
 #include "apps/rig_options.h"
 #include "apps/verbs.h"
@@ -26,8 +29,19 @@ cv::Mat read(const std::string& path) {
   return readImage(path);
 }
 
-void rectify(const RectifyArguments& arguments) {
+// Pictures of the name that rectified ones get may be raw ones.
+void requireOutputs(const RectifyArguments& arguments) {
   checkOutputFolder(arguments.folder);
+  if (!std::filesystem::exists(arguments.folder)) return;
+  const std::string inputs[] = {arguments.left, arguments.right, arguments.rig};
+  std::vector<PlannedOutput> outputs;
+  for (const char* name : {"im0.png", "im1.png", "calib.txt"})
+    outputs.push_back({"--output", arguments.folder + "/" + name, {".png", ".txt"}});
+  checkOutputs(outputs, inputs);
+}
+
+void rectify(const RectifyArguments& arguments) {
+  requireOutputs(arguments);
   const StereoRig rig = rigNamed(arguments.rig);
   Rectifier rectifier = [&] {
     try {

@@ -71,7 +71,9 @@ cv::Mat readImage(const std::string& path) {
     const cv::Mat file(1, static_cast<int>(bytes.size()), CV_8U, const_cast<char*>(bytes.data()));
     image = cv::imdecode(file, cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception& e) {
-    throw std::runtime_error(path + ": cannot be decoded: " + e.err);
+    throw std::runtime_error(
+        path +
+        ": is damaged, or beyond what OpenCV decodes (2^20 pixels wide or high, 2^30 in all): " + e.err);
   }
   if (image.empty()) throw std::runtime_error(path + ": is not an image, or is a damaged one");
   return image;

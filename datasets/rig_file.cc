@@ -117,8 +117,10 @@ std::string inFolder(const std::string& folder, const std::string& stem) {
 
 StereoRig readRig(const std::string& path, const RigFileOptions& options) {
   std::error_code error;
-  if (fs::is_directory(path, error))
-    return readRigPair(inFolder(path, "left"), inFolder(path, "right"), options);
+  if (fs::is_directory(path, error)) {
+    const std::string left = inFolder(path, "left");  // the first one missing is named
+    return readRigPair(left, inFolder(path, "right"), options);
+  }
   const std::string text = readText(path);
   return checked(path, options, [&] {
     if (isYaml(path, text)) return fromYaml(path, YamlFields::parse(path, text), options);

@@ -24,9 +24,9 @@ DistortionModel modelOf(const YamlFields& fields) {
 CameraInfo readCamera(const YamlFields& fields) {
   CameraInfo info;
   CameraModel& camera = info.camera;
-  camera.width = fields.integer(fields.firstOf({"image_width", "width"}), 1, kLongestSide);
-  camera.height = fields.integer(fields.firstOf({"image_height", "height"}), 1, kLongestSide);
-  const std::string matrix = fields.firstOf({"camera_matrix", "K", "k"});
+  camera.width = fields.integer(fields.oneOf({"image_width", "width"}), 1, kLongestSide);
+  camera.height = fields.integer(fields.oneOf({"image_height", "height"}), 1, kLongestSide);
+  const std::string matrix = fields.oneOf({"camera_matrix", "K", "k"});
   const cv::Matx33d k = fields.matrix<3, 3>(matrix);
   if (!(k(0, 0) > 0 && k(1, 1) > 0 && k(2, 2) == 1))
     fields.fail(matrix, "[fx 0 cx 0 fy cy 0 0 1] with fx, fy > 0");
@@ -35,9 +35,9 @@ CameraInfo readCamera(const YamlFields& fields) {
   camera.cx_px = k(0, 2);
   camera.cy_px = k(1, 2);
   camera.distortion_model = modelOf(fields);
-  setDistortion(camera, fields, fields.firstOf({"distortion_coefficients", "D", "d"}));
-  info.rotation = fields.matrix<3, 3>(fields.firstOf({"rectification_matrix", "R", "r"}));
-  info.view = rectifiedView(fields, fields.firstOf({"projection_matrix", "P", "p"}));
+  setDistortion(camera, fields, fields.oneOf({"distortion_coefficients", "D", "d"}));
+  info.rotation = fields.matrix<3, 3>(fields.oneOf({"rectification_matrix", "R", "r"}));
+  info.view = rectifiedView(fields, fields.oneOf({"projection_matrix", "P", "p"}));
   return info;
 }
 

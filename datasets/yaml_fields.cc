@@ -66,11 +66,17 @@ bool YamlFields::has(const std::string& key) const {
   return node_[key].IsDefined();
 }
 
-std::string YamlFields::firstOf(std::initializer_list<const char*> keys) const {
-  for (const char* key : keys)
-    if (has(key)) return key;
-  get(*keys.begin());  // throws
-  return "";
+std::string YamlFields::oneOf(std::initializer_list<const char*> keys) const {
+  std::string found;
+  for (const char* key : keys) {
+    if (!has(key)) continue;
+    if (!found.empty())
+      failAtLine(path_, lineOf(get(key)),
+                 "a second value for " + quoted(name_ + found) + ", as " + quoted(key));
+    found = key;
+  }
+  if (found.empty()) get(*keys.begin());  // throws
+  return found;
 }
 
 YAML::Node YamlFields::get(const std::string& key) const {

@@ -20,8 +20,9 @@ class YamlFields {
 
   const std::string& path() const { return path_; }
   bool has(const std::string& key) const;
-  /// The first of `keys` that is there; throws, naming the first, if none is.
-  std::string firstOf(std::initializer_list<const char*> keys) const;
+  /// The one of `keys`, which mean the same, that is there; throws, naming the first, if none is, or if two
+  /// are.
+  std::string oneOf(std::initializer_list<const char*> keys) const;
 
   YamlFields map(const std::string& key) const;
   std::string text(const std::string& key) const;

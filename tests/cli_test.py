@@ -438,7 +438,7 @@ class BadOptions(CommandTest):
         self.refuse("--nonsense", "--nonsense", status=2)
         self.assert_refused(self.run_command(), "compute, measure, eval, compare, range, plugins, calibrate, rig, rectify, check, "
                             "render", 2)
-        self.assert_refused(self.run_command("guess"), "guess", 2)
+        self.assert_refused(self.run_command("guess", "-o", "x"), "there is no verb 'guess'; allowed: compute,", 2)
         self.assert_refused(self.run_command("compute"), "left", 2)
         self.assert_refused(self.run_command("compute", self.left, self.right), "--output", 2)
         self.assert_refused(self.compute("-o", "out.pfm", "--depth", "d.pfm"), "--calib", 2)

@@ -102,6 +102,8 @@ TEST_F(ImageFile, RefusesDamagedAndForeignFiles) {
   EXPECT_THROW(readImage(put(folder_ / "a.png", bytes)), std::runtime_error);
   expectContains(messageOf([&] { readImage(put(folder_ / "b.png", "not an image")); }),
                  "b.png: is not an image");
+  expectContains(messageOf([&] { readImage(put(folder_ / "huge.pgm", "P5\n99999 99999\n255\n")); }),
+                 "beyond what OpenCV decodes (2^20 pixels wide or high, 2^30 in all)");
   expectContains(messageOf([&] { readImage(put(folder_ / "c.png", "")); }), "c.png: byte 0");
   expectContains(messageOf([&] { readImage(folder_ / "absent.png"); }), "No such file");
 }

@@ -101,6 +101,9 @@ class RigTest(unittest.TestCase):
                                                  "--max-disparity", "300", status=3))
         self.accept("rectify", self.board("left01.png"), self.board("right01.png"), "--rig", "rig.yml", "-o", "pair")
         self.assertEqual(sorted(os.listdir(os.path.join(self.folder, "pair"))), ["calib.txt", "im0.png", "im1.png"])
+        again = self.command("rectify", "pair/im0.png", "pair/im1.png", "--rig", "rig.yml", "-o", "pair")
+        self.assertEqual(again.returncode, 1)
+        self.assertIn("--output is 'pair/im0.png', which is an input", again.stderr)
         shown = self.accept("rig", "show", "pair/calib.txt")
         self.assertAlmostEqual(self.number_after(shown, "baseline"), 0.110, delta=0.0005)
         depth = ["-o", "out.pfm", "--depth", "depth.png", "--max-disparity", "128", "--preset", "fast"]
@@ -198,6 +201,14 @@ class RigTest(unittest.TestCase):
         self.refuse("views can be used", "calibrate", self.board("left01.png"), self.board("right01.png"), "--square",
                     "25mm", "--board", "8x5", "-o", "r.yml")
         self.refuse("there is no folder", *self.calibrate("-o", "no/r.yml"))
+        self.refuse("--square is '20m'; allowed: a length from 1mm to 1m", *self.calibrate()[:3], "--square", "20m", "-o",
+                    "r.yml")
+        self.refuse("--output is 'r.png'; allowed extensions: .yml, .yaml", *self.calibrate("-o", "r.png"))
+        self.refuse("--coverage is 'c.jpg'; allowed extensions: .png", *self.calibrate("-o", "r.yml", "--coverage", "c.jpg"))
+        self.refuse("left01.png', which is an input",
+                    *self.calibrate("-o", "r.yml", "--coverage", self.board("left01.png")))
+        self.refuse("no complete board of 9x6 inner corners in either image", "calibrate", self.small_picture(),
+                    self.small_picture(), "--square", "25mm", "-o", "r.yml")
         self.refuse("absent.yml: cannot be read", "rig", "show", "absent.yml")
         self.refuse("baseline is 0.00011", "rig", "show", self.rig, "--unit", "mm")
         self.refuse("exchanged", "rig", "show", self.rig, "--cameras", "1", "0")

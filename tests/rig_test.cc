@@ -449,6 +449,7 @@ TEST_F(RigFile, RefusesNonsenseNamingFileAndField) {
     EXPECT_EQ(message.find('\n'), message.npos) << message;
   }
   expectContains(messageOf([&] { readRig(folder_ / "absent.yml"); }), "absent.yml: cannot be read");
+  expectContains(messageOf([&] { readRig(folder_ / "."); }), "no left.yaml");
   expectContains(messageOf([&] { readRig(put("big.yml", std::string(2 << 20, ' '))); }), "too large");
 }
 
@@ -471,6 +472,8 @@ TEST_F(RigFile, RosRefusesNonsenseNamingFileAndField) {
       {replaced(good, "[490, 0, 318, -58.8,", "[490, 0, 318, -58800,"), "baseline is 120 m"},
       {replaced(good, "plumb_bob", "fov"), "distortion_model is 'fov'"},
       {replaced(good, "image_height: 480", "image_height: -480"), "image_height is '-480'"},
+      {replaced(good, "image_height: 480", "image_height: 480\nheight: 240"),
+       "a second value for 'image_height', as 'height'"},
       {replaced(good, "image_height: 480", "image_height: 240"), "right size is 640x240"},
   };
   for (const auto& c : cases) {
