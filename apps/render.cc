@@ -61,6 +61,9 @@ void parseRange(const std::string& option, const std::string& text, double& low,
 
 StereoRig rigOf(const RenderArguments& arguments) {
   const StereoRig rig = rigNamed(arguments.rig);
+  if (rig.left.width == 0)
+    throw std::invalid_argument(arguments.rig +
+                                ": the rig's image size is unknown; allowed: a rig with it, to render by");
   if (arguments.size.empty()) return rig;
   const cv::Size size = parseSize(arguments.size);
   return resized(rig, size.width, size.height);

@@ -493,7 +493,10 @@ class BadOptions(CommandTest):
                                 (("orchard", "--size", "8x8"), "width is 8; allowed: 16 to 8192"),
                                 (("storefront", "--yaw", "-70..0"), "least_yaw_deg is -70")):
             self.assert_refused(self.run_command("render", *arguments, "-o", "scene"), part)
-        self.put("file", "x")
+        self.put("file", "cam0=[900 0 300; 0 900 200; 0 0 1]\ndoffs=0\nbaseline=100\n")
+        for size in ((), ("--size", "64x36")):
+            self.assert_refused(self.run_command("render", "planes", "--rig", "file", *size, "-o", "scene"),
+                                "file: the rig's image size is unknown")
         for output, part in (("file", "file: cannot be written: this is a file; allowed: a folder"),
                              ("file/sub", "there is no folder 'file'"), ("no/where", "there is no folder 'no'"),
                              ("", "this names no folder")):
