@@ -77,13 +77,15 @@ struct RigFileOptions {
 };
 
 /// Reads a rig; the format is recognised by its contents:
-///   OpenCV's stereo samples and writeRig()  M1 D1 M2 D2 R T [R1 R2 P1 P2] [length_unit] in one file
-///   ROS camera_info                         a folder with left.yaml and right.yaml; see also the other
-///   overload Kalibr camchain                         cam0: ... cam1: ... Middlebury calib.txt cam0=[...]
-///   baseline=... KITTI                                   P0: ... P3: (rectified), or calib_cam_to_cam.txt
-///   (both)
+/// - OpenCV's stereo samples and writeRig(): M1 D1 M2 D2 R T [R1 R2 P1 P2] [length_unit] in one file
+/// - ROS camera_info: a folder with left.yaml and right.yaml; see also the other overload
+/// - Kalibr camchain: cam0 and cam1
+/// - Middlebury calib.txt: cam0=[...], baseline=...
+/// - KITTI: P0 to P3 (rectified), or calib_cam_to_cam.txt (both)
+///
 /// Throws std::runtime_error "path: line N: field is 'value'; allowed: ..." for a file that cannot be
-/// understood, contradicts itself, or whose baseline is outside 1 mm to 10 m (mostly a mistaken unit).
+/// understood, contradicts itself, states a field twice or one side of the size only, or whose baseline is
+/// outside 1 mm to 10 m (mostly a mistaken unit).
 StereoRig readRig(const std::string& path, const RigFileOptions& options = {});
 
 /// The same from two files: left and right camera_info (YAML as ROS writes it, in OpenCV's syntax, or as
