@@ -26,7 +26,8 @@ struct FittedSphere {
   double score = 0;
 };
 
-/// The parallax of the sphere's near side along the ray, in pixels; none beside it.
+/// The parallax of the sphere's near side along the ray, in pixels; none beside it, or if that side is not
+/// before the camera, which is in the sphere or beyond it.
 std::optional<double> parallaxAlong(const cv::Vec3d& ray, const FittedSphere& sphere,
                                     const StereoCalibration& calibration);
 
