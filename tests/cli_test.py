@@ -256,6 +256,13 @@ class GoodInput(CommandTest):
         self.assertNotRegex(corners, "-[0-9.]+ deg")
         outside = self.run_command(*views, "--box", "500,500,9,9")
         self.assertEqual(outside.stdout, "box 500,500,9,9: not measured: the region holds no pixel of the image\n")
+        self.assertEqual(outside.stderr, "")
+        exchanged = self.run_command("measure", views[2], views[1], *views[3:], "--box", box, "--json")
+        self.assertRegex(exchanged.stderr, "^pomona: warning: whether the views' rows match is unknown.*\n$")
+        self.assertEqual(len(json.loads(exchanged.stdout)), 1)
+        self.assert_accepted(self.run_command("render", "boxes", "--size", "640x480", "--right-shift", "2", "-o", "off"))
+        off = self.run_command("measure", "off/im0.png", "off/im1.png", "--calib", "off/calib.txt", "--point", "320,240")
+        self.assertRegex(off.stderr, "^pomona: warning: the right view is -[12][.][0-9]+ rows off.*; it was moved: .*\n$")
 
     def test_formats_by_extension_and_flag(self):
         self.assert_accepted(self.compute("-o", "kitti.png", "--state", "state.pgm", "--confidence", "c.pfm"))
