@@ -181,6 +181,23 @@ TEST(MeasureObject, BelievesWhatWasMeasuredRatherThanWhatWasFilled) {
   expectSphere(measureObject(result, camera(), kBox), 0.005);
 }
 
+// Far away, a leaf 2 cm before a fruit is less than a pixel nearer: both are to be tried.
+TEST(MeasureObject, TellsAFarFruitFromALeafLessThanAPixelBeforeIt) {
+  constexpr double kDepth_m = 1.85, kFruitRadius_m = 0.042, kNear_m = kDepth_m - kFruitRadius_m;
+  for (const double gap_m : {0.015, 0.02, 0.025})
+    for (const int height : {22, 34, 46})
+      for (const int x : {139, 149, 157}) {
+        World world;
+        world.addSphere({0, 0, kDepth_m}, kFruitRadius_m, 0.9);
+        world.addPlane({x, 120 - height / 2, 22, height}, kNear_m - gap_m, 0.0003);
+        world.addPlane({0, 0, kWidth, kHeight}, 2.3);
+        const ObjectMeasurement m = measureObject(world.result(0.12), camera(), cv::Rect(137, 97, 47, 47));
+        SCOPED_TRACE(::testing::Message() << gap_m << ' ' << height << ' ' << x);
+        ASSERT_TRUE(m.ok()) << explain(m.failure);
+        EXPECT_NEAR(m.distance_m, kNear_m, 0.006 * kNear_m);
+      }
+}
+
 // Apples are no spheres: what lies a little behind the sphere is not seen through it, even if a leaf hides
 // most of the fruit.
 TEST(MeasureObject, FindsAFlatFruitBehindALeaf) {
