@@ -41,7 +41,7 @@ class SweepPlan {
   /// Whether the kernels compute costs on the way, rather than read them: if they are cheap, and nobody needs
   /// them to tell the sum of four path costs from its lowest byte.
   bool computesCosts() const {
-    return cost_.areCheap() && options_.paths == 8 && 4 * (cost_.maximum() + options_.p2) < 256;
+    return cost_.areCheap() && options_.paths / 2 * (cost_.maximum() + options_.p2) < 256;
   }
 
   /// A whole row, without cost, border and sums. The three paths between rows come from row y + from_row, the

@@ -228,7 +228,7 @@ POMONA_OP void withShape(const AggregateRow& r, F f) {
   constexpr Constant<1> yes{};
   constexpr Constant<0> no{};
   withVectors(r.vectors, [&](auto v) {
-    if (r.cost == nullptr) return f(v, yes, no, yes);
+    if (r.cost == nullptr) return r.diagonals ? f(v, yes, no, yes) : f(v, no, no, yes);
     if (r.diagonals) return r.wide_sums ? f(v, yes, yes, no) : f(v, yes, no, no);
     r.wide_sums ? f(v, no, yes, no) : f(v, no, no, no);
   });
