@@ -19,12 +19,13 @@ std::string caseName(const std::string& method, const char* variant, const Frame
   return "frame/" + method + "/" + variant + "/" + size.name() + "/t" + std::to_string(threads);
 }
 
-/// `preset` may be followed by what is forced, "-avx2" or "-low" memory.
+/// `preset` may be followed by what is forced: "-8paths", "-avx2" or "-low" memory.
 FrameCase presetCase(const std::string& preset, OutputMode mode, const FrameSize& size, int threads) {
   Options options = Options::preset(preset.substr(0, preset.find('-')));
   options.num_disparities = size.disparities;
   options.mode = mode;
   options.threads = threads;
+  if (preset.ends_with("-8paths")) options.aggregation = {8, 5, 39, 10, PenaltyAdaptation::kSoftIntensity};
   if (preset.ends_with("-avx2")) options.isa = "avx2";
   if (preset.ends_with("-low")) options.memory = MemoryMode::kLow;
   return {caseName(preset, mode == OutputMode::kDense ? "dense" : "sparse", size, threads),
@@ -92,6 +93,7 @@ std::vector<FrameCase> frameCases(std::span<const FrameSize> sizes) {
         for (OutputMode mode : {OutputMode::kSparse, OutputMode::kDense})
           if (std::string(preset) != "paper" || size.height == 720)
             cases.push_back(presetCase(preset, mode, size, threads));
+      cases.push_back(presetCase("fast-8paths", OutputMode::kSparse, size, threads));
       if (hasBetterThanAvx2()) cases.push_back(presetCase("fast-avx2", OutputMode::kSparse, size, threads));
       for (OutputMode mode : {OutputMode::kSparse, OutputMode::kDense})
         cases.push_back(presetCase("fast-low", mode, size, threads));

@@ -26,7 +26,7 @@ struct FrameCase {
 
 /// The presets sparse and dense, and OpenCV's matchers with their own checks and raw (nothing checked or
 /// removed), with 1 and 2 threads; `paper` at a height of 720 only, "fast-avx2" where the CPU has more than
-/// that, "fast-low" with MemoryMode::kLow.
+/// that, "fast-low" with MemoryMode::kLow, "fast-8paths" with as many paths as OpenCV's MODE_HH.
 std::vector<FrameCase> frameCases(std::span<const FrameSize> sizes);
 
 /// Throws std::invalid_argument if there is none of that name.

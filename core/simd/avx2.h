@@ -64,11 +64,8 @@ POMONA_OP U8 nextLane(U8 v) {
   return _mm256_alignr_epi8(_mm256_permute2x128_si256(v, _mm256_set1_epi8(-1), 0x21), v, 1);
 }
 
-using Minima = __m256i;  // 64-bit parts hold, in every byte, the minima of a, c, b, d
-POMONA_OP Minima minima(U8 a, U8 b, U8 c, U8 d) {
-  const U8 ab = min(_mm256_blend_epi32(a, b, 0xF0), _mm256_permute2x128_si256(a, b, 0x21));
-  const U8 cd = min(_mm256_blend_epi32(c, d, 0xF0), _mm256_permute2x128_si256(c, d, 0x21));
-  U8 m = min(_mm256_unpacklo_epi64(ab, cd), _mm256_unpackhi_epi64(ab, cd));
+using Minima = __m256i;                 // 64-bit parts hold, in every byte, the minima of a, c, b, d
+POMONA_OP Minima minimaOfParts(U8 m) {  // of the 64-bit parts of m
   m = min(m, _mm256_shuffle_epi32(m, 0xB1));
   const __m256i by_two = _mm256_setr_epi8(2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13,  //
                                           2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13);
@@ -76,6 +73,15 @@ POMONA_OP Minima minima(U8 a, U8 b, U8 c, U8 d) {
                                           1, 0, 3, 2, 5, 4, 7, 6, 9, 8, 11, 10, 13, 12, 15, 14);
   m = min(m, _mm256_shuffle_epi8(m, by_two));
   return min(m, _mm256_shuffle_epi8(m, by_one));
+}
+POMONA_OP Minima minima(U8 a, U8 b, U8 c, U8 d) {
+  const U8 ab = min(_mm256_blend_epi32(a, b, 0xF0), _mm256_permute2x128_si256(a, b, 0x21));
+  const U8 cd = min(_mm256_blend_epi32(c, d, 0xF0), _mm256_permute2x128_si256(c, d, 0x21));
+  return minimaOfParts(min(_mm256_unpacklo_epi64(ab, cd), _mm256_unpackhi_epi64(ab, cd)));
+}
+POMONA_OP Minima minima(U8 a, U8 b) {
+  const U8 ab = min(_mm256_unpacklo_epi64(a, b), _mm256_unpackhi_epi64(a, b));
+  return minimaOfParts(min(ab, _mm256_permute4x64_epi64(ab, 0x4E)));
 }
 POMONA_OP void storeMinima(std::uint32_t* p, Minima m) {
   const __m256i picked = _mm256_permutevar8x32_epi32(m, _mm256_setr_epi32(0, 4, 2, 6, 0, 0, 0, 0));

@@ -69,14 +69,20 @@ POMONA_OP U8 nextLane(U8 v) {
 }
 
 using Minima = __m512i;  // 128-bit block k holds the minimum of vector k in every byte
-POMONA_OP Minima minima(U8 a, U8 b, U8 c, U8 d) {
-  const U8 ab = min(_mm512_mask_blend_epi64(0xF0, a, b), _mm512_shuffle_i64x2(a, b, 0x4E));
-  const U8 cd = min(_mm512_mask_blend_epi64(0xF0, c, d), _mm512_shuffle_i64x2(c, d, 0x4E));
-  U8 m = min(_mm512_shuffle_i64x2(ab, cd, 0x88), _mm512_shuffle_i64x2(ab, cd, 0xDD));
+POMONA_OP Minima minimaOfBlocks(U8 m) {
   m = min(m, _mm512_shuffle_epi32(m, static_cast<_MM_PERM_ENUM>(0x4E)));
   m = min(m, _mm512_shuffle_epi32(m, static_cast<_MM_PERM_ENUM>(0xB1)));
   m = min(m, _mm512_rol_epi32(m, 16));
   return min(m, _mm512_rol_epi32(m, 8));
+}
+POMONA_OP Minima minima(U8 a, U8 b, U8 c, U8 d) {
+  const U8 ab = min(_mm512_mask_blend_epi64(0xF0, a, b), _mm512_shuffle_i64x2(a, b, 0x4E));
+  const U8 cd = min(_mm512_mask_blend_epi64(0xF0, c, d), _mm512_shuffle_i64x2(c, d, 0x4E));
+  return minimaOfBlocks(min(_mm512_shuffle_i64x2(ab, cd, 0x88), _mm512_shuffle_i64x2(ab, cd, 0xDD)));
+}
+POMONA_OP Minima minima(U8 a, U8 b) {
+  const U8 ab = min(_mm512_mask_blend_epi64(0xF0, a, b), _mm512_shuffle_i64x2(a, b, 0x4E));
+  return minimaOfBlocks(min(ab, _mm512_shuffle_i64x2(ab, ab, 0xB1)));
 }
 POMONA_OP void storeMinima(std::uint32_t* p, Minima m) {
   const __m512i pick = _mm512_castsi128_si512(_mm_setr_epi32(0, 4, 8, 12));

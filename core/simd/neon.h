@@ -65,6 +65,11 @@ POMONA_OP Minima minima(U8 a, U8 b, U8 c, U8 d) {
   const U8 halves = vpminq_u8(quarters, quarters);
   return vpminq_u8(halves, halves);
 }
+POMONA_OP Minima minima(U8 a, U8 b) {
+  const U8 halves = vpminq_u8(a, b), quarters = vpminq_u8(halves, halves);
+  const U8 eighths = vpminq_u8(quarters, quarters);  // two bytes of each, over and over
+  return vminq_u8(eighths, vrev16q_u8(eighths));
+}
 POMONA_OP void storeMinima(std::uint32_t* p, Minima m) {
   const uint8x16_t spread = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
   vst1q_u32(p, vreinterpretq_u32_u8(vqtbl1q_u8(m, spread)));

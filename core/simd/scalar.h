@@ -104,6 +104,10 @@ POMONA_OP std::uint8_t smallest(U8 a) {
 POMONA_OP Minima minima(U8 a, U8 b, U8 c, U8 d) {
   return {{smallest(a), smallest(b), smallest(c), smallest(d)}};
 }
+/// The same as minima(a, a, b, b), with less work.
+POMONA_OP Minima minima(U8 a, U8 b) {
+  return {{smallest(a), smallest(a), smallest(b), smallest(b)}};
+}
 /// Four quads for broadcastQuad; p on a 16-byte boundary.
 POMONA_OP void storeMinima(std::uint32_t* p, Minima m) {
   for (int k = 0; k < 4; ++k) p[k] = m.v[k] * 0x01010101u;

@@ -104,7 +104,7 @@ POMONA_OP void sweepRow(const AggregateRow& row, Emit&& emit, Done&& done) {
     const U8 m1 = extendPath<kVectors, false>(previous, straight_minimum, p1,
                                               simd::broadcastQuad(r.p2 + r.step[1][x]), cost, to_straight, n);
     storePixel<kVectors>(straight + x * pixel, to_straight, n);
-    U8 m_behind = m1, m_ahead = m1;
+    U8 m_behind, m_ahead;
     if constexpr (kDiagonals) {
       m_behind = extendPath<kVectors, false>(
           carried, carried_minimum, p1, simd::broadcastQuad(r.p2 + r.step[kBehind][x]), cost, to_behind, n);
@@ -118,8 +118,11 @@ POMONA_OP void sweepRow(const AggregateRow& row, Emit&& emit, Done&& done) {
                                             simd::broadcastQuad(r.p2 + r.step[kAhead][x]), cost, to_ahead, n);
       storePixel<kVectors>(ahead + x * pixel, to_ahead, n);
     }
-    const simd::Minima all =
-        kStep > 0 ? simd::minima(m_behind, m1, m_ahead, m3) : simd::minima(m_ahead, m1, m_behind, m3);
+    simd::Minima all;
+    if constexpr (kDiagonals)
+      all = kStep > 0 ? simd::minima(m_behind, m1, m_ahead, m3) : simd::minima(m_ahead, m1, m_behind, m3);
+    else
+      all = simd::minima(m1, m3);
     simd::storeMinima(minima + 4 * x, all);
     horizontal_minimum = simd::lastMinimum(all);
     for (int j = 0; j < n; ++j) horizontal[j] = to_horizontal[j];
