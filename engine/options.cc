@@ -109,7 +109,7 @@ Options Options::preset(std::string_view name) {
   if (name == "balanced") return o;
   if (name == "fast") {
     o.cost = {MatchingCost::kCensus5x5, 0};
-    o.aggregation = {4, 11, 52, 18, PenaltyAdaptation::kSoftIntensity};
+    o.aggregation = {4, 8, 40, 14, PenaltyAdaptation::kSoftIntensity};
     o.validation.left_right_px = 1.0f;
     // A plain census leaves too few seeds to be strict about them.
     o.completion.seed_left_right_px = 1.0f;

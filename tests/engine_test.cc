@@ -93,8 +93,8 @@ TEST(Engine, WholeFrameGoldenHashes) {
   const auto hash = [&](const char* preset, OutputMode mode) {
     return hashOf(computeDisparity(pair.left.image, pair.right.image, makeOptions(preset, 45, mode)));
   };
-  EXPECT_EQ(hash("fast", OutputMode::kSparse), 11290633165470582631u);
-  EXPECT_EQ(hash("fast", OutputMode::kDense), 10829251251337183235u);
+  EXPECT_EQ(hash("fast", OutputMode::kSparse), 12997016473136335008u);
+  EXPECT_EQ(hash("fast", OutputMode::kDense), 3860110484081648003u);
   EXPECT_EQ(hash("balanced", OutputMode::kSparse), 5942220946444196805u);
   EXPECT_EQ(hash("balanced", OutputMode::kDense), 16096722041883362878u);
   EXPECT_EQ(hash("quality", OutputMode::kDense), 12855416667109310991u);
