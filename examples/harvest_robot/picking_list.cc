@@ -8,12 +8,13 @@
 
 namespace {
 
-// Whether `other` is a piece of `fruit`: two fruits that touch have their centres twice as far apart as this.
+// Whether `other` is a piece of `fruit`: two fruits that touch have their centres two radii apart, pieces
+// about none, but small ones lie unsurely.
 bool isPieceOf(const Pick& fruit, const Pick& other) {
   if (!fruit.where.ok()) return false;
   if (!other.where.ok()) return fruit.box.contains((other.box.tl() + other.box.br()) / 2);
   return cv::norm(fruit.where.center_m - other.where.center_m) <
-         (fruit.where.radius_m + other.where.radius_m) / 2;
+         (fruit.where.radius_m + other.where.radius_m) / 2 + other.where.center_sigma_m;
 }
 
 cv::Rect boxOf(const pomona::ObjectMeasurement& fruit, const pomona::StereoCalibration& c) {
