@@ -70,14 +70,6 @@ void print(int frame, const std::vector<Pick>& picks) {
                   std::string(explain(where.failure)).c_str());
 }
 
-void printRows(int frame, const pomona::StereoResult& result, bool& unknown_said) {
-  if (result.rowsAreOff())
-    std::printf("frame %d  warning: the right view is %+.1f rows off%s: the rig wants a new calibration\n",
-                frame, result.row_offset_px, result.rows_aligned ? ", and was moved" : "");
-  if (std::isnan(result.row_offset_px) && !std::exchange(unknown_said, true))
-    std::printf("frame %d  note: unknown whether rows match (said once); see pomona check\n", frame);
-}
-
 cv::Mat draw(const cv::Mat& bgr, const std::vector<Pick>& picks) {
   cv::Mat picture = bgr.clone();
   for (const auto& [box, where] : picks) {
@@ -144,7 +136,11 @@ int run(const std::string& rig_path, const std::string& source, const std::strin
     const std::vector<Pick> picks = pickingList(result, engine.calibration(), engine.leftView());
     if (frame > 0) latencies_ms.push_back(millisecondsSince(start));
     print(frame, picks);
-    printRows(frame, result, rows_unknown_said);
+    if (std::isnan(result.row_offset_px) && !std::exchange(rows_unknown_said, true))
+      std::printf("frame %d  note: unknown whether rows match (said once); see pomona check\n", frame);
+    if (result.rowsAreOff())
+      std::printf("frame %d  warning: the right view is %+.1f rows off%s: the rig wants a new calibration\n",
+                  frame, result.row_offset_px, result.rows_aligned ? ", and was moved" : "");
     if (!drawing.empty()) go_on = show(drawing, frame, draw(engine.leftView(), picks));
     if (frame == 0) loop_start = Clock::now();
     loop_ms = millisecondsSince(loop_start);
