@@ -183,6 +183,21 @@ std::string lineOf(const Json& entry) {
   return line;
 }
 
+// What makes all measurements of a pair doubtful; not among them, lest it break the JSON.
+void warnOfRows(const StereoResult& result) {
+  std::array<char, 160> text;
+  if (std::isnan(result.row_offset_px)) {
+    std::cerr
+        << "pomona: warning: whether the views' rows match is unknown: where they are off, or the views "
+           "exchanged, nothing can be measured; see pomona check\n";
+  } else if (result.rowsAreOff()) {
+    std::snprintf(text.data(), text.size(), "the right view is %+.2f rows off, %.2f where it is worst%s",
+                  result.row_offset_px, result.row_error_px, result.rows_aligned ? "; it was moved" : "");
+    std::cerr << "pomona: warning: " << text.data()
+              << ": the cameras want a new calibration; see pomona check\n";
+  }
+}
+
 void measure(const MeasureArguments& arguments) {
   if (arguments.paths.calibration.empty() && arguments.paths.rig.empty())
     throw CLI::RequiresError("measure", "--calib or --rig");
@@ -202,6 +217,7 @@ void measure(const MeasureArguments& arguments) {
   options.min_disparity = range.min;
   options.num_disparities = range.count;
   const StereoResult result = computeDisparity(inputs.left, inputs.right, options);
+  warnOfRows(result);
 
   Json entries = Json::array();
   for (const auto& [text, region] : requests)

@@ -118,6 +118,7 @@ RegionSamples samplesOf(const StereoResult& result, const StereoCalibration& cal
       std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(mask.pixels) / most))));
   RegionSamples out;
   out.pixels_each = step * step;
+  out.view_width_px = result.disparity.cols;
   out.samples.reserve(static_cast<std::size_t>(mask.pixels / out.pixels_each * 1.2 + 16));
   for (int row = 0; row < mask.box.height; ++row)
     for (int column = 0; column < mask.box.width; ++column) {

@@ -49,6 +49,7 @@ struct RegionSamples {
   int known_px = 0;        ///< pixels of the region with a disparity
   int infinite_px = 0;     ///< of these, with d + doffs <= 0
   double pixels_each = 1;  ///< pixels that each sample stands for
+  int view_width_px = 0;   ///< of both views
 };
 /// Every pixel inside, or a grid of them that holds `most` at most, about.
 RegionSamples samplesOf(const StereoResult& result, const StereoCalibration& calibration,

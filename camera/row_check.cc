@@ -7,6 +7,7 @@
 #include <limits>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "core/parallel.h"
@@ -165,6 +166,7 @@ struct ReducedPair {
   Bytes left, right;
   Bytes left_coarse, right_coarse, left_contrast, right_contrast;
   int scale;
+  int lower;  // where the rows of the reduced right view begin, in the view
 };
 
 std::optional<Match> matchIn(int cell, const ReducedPair& pair, Range disparities, int reach) {
@@ -176,22 +178,22 @@ std::optional<Match> matchIn(int cell, const ReducedPair& pair, Range disparitie
   // The centre of a reduced pixel lies between full ones: take the one above and to the left of it.
   const int scale = pair.scale, full_x = x * scale + (scale - 1) / 2, full_y = y * scale + (scale - 1) / 2;
   const auto s = static_cast<float>(scale);
-  Place full{static_cast<float>(full_x) + s * (place.x - static_cast<float>(x)),
-             static_cast<float>(full_y) + s * (place.y - static_cast<float>(y))};
+  Place full{
+      static_cast<float>(full_x) + s * (place.x - static_cast<float>(x)),
+      static_cast<float>(full_y) + s * (place.y - static_cast<float>(y)) + static_cast<float>(pair.lower)};
   if (!settle(pair.left, pair.right, full_x, full_y, full)) return {};
   return Match{{static_cast<float>(full_x), static_cast<float>(full_y)}, full};
 }
 
 // The plane that fits most points: least squares, with weights that fade out for those far off, which are
 // mismatches.
-RowOffsetPlane fitPlane(const Match* matches, int count, int width, int height, float median_px) {
+RowOffsetPlane fitPlane(std::span<const Match> matches, int width, int height, float median_px) {
   RowOffsetPlane plane{median_px, 0, 0};
   for (const double scale_px : {4.0, 2.0, 1.0, 0.5, 0.5}) {
     // A little stiffness, so that points in one part of the image don't swing the rest.
     cv::Matx33d a = cv::Matx33d::diag({0, 1, 1});
     cv::Vec3d b(0, 0, 0);
-    for (int i = 0; i < count; ++i) {
-      const Match& m = matches[i];
+    for (const Match& m : matches) {
       const cv::Vec3d row(1, 2.0 * m.left.x / width - 1, 2.0 * m.left.y / height - 1);
       const double dy = m.right.y - m.left.y,
                    off = (dy - plane.at(m.left.x, m.left.y, width, height)) / scale_px;
@@ -205,39 +207,56 @@ RowOffsetPlane fitPlane(const Match* matches, int count, int width, int height, 
   return plane;
 }
 
-template <typename ValueOf>
-float medianOver(int count, ValueOf valueOf) {
-  std::array<float, kColumns * kRows> values;
-  for (int i = 0; i < count; ++i) values[static_cast<std::size_t>(i)] = valueOf(i);
-  std::sort(values.begin(), values.begin() + count);
-  return values[static_cast<std::size_t>(count / 2)];
+float medianOf(std::span<float> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
 }
 
-RowOffsets summary(const Match* matches, int count, int width, int height) {
+RowOffsets summary(std::span<const Match> matches, int width, int height) {
+  constexpr float kAgree_px = 1;
+  constexpr std::size_t kFewestAgreeing = kFewestRowPoints / 2;
+  const int count = static_cast<int>(matches.size());
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  if (count < kFewestRowPoints) return {nan, nan, count, {nan, nan, nan}, nan};
-  const auto offset = [&](int i) { return matches[i].right.y - matches[i].left.y; };
-  const float median = medianOver(count, offset);
-  const RowOffsetPlane plane = fitPlane(matches, count, width, height, median);
-  const float scatter = medianOver(count, [&](int i) {
-    const Place& p = matches[i].left;
-    return std::abs(offset(i) - static_cast<float>(plane.at(p.x, p.y, width, height)));
-  });
+  const RowOffsets unknown{nan, nan, count, {nan, nan, nan}, nan};
+  if (count < kFewestRowPoints) return unknown;
+  std::array<float, kColumns * kRows> values;
+  const std::span<float> all(values.data(), matches.size());
+  const auto offset = [](const Match& m) { return m.right.y - m.left.y; };
+  std::transform(matches.begin(), matches.end(), all.begin(), offset);
+  const RowOffsetPlane plane = fitPlane(matches, width, height, medianOf(all));
+  const auto off = [&](const Match& m) {
+    return std::abs(offset(m) - static_cast<float>(plane.at(m.left.x, m.left.y, width, height)));
+  };
+  std::size_t agreeing = 0;
+  for (const Match& m : matches)
+    if (off(m) < kAgree_px) values[agreeing++] = offset(m);
+  if (agreeing < kFewestAgreeing) return unknown;
+  const float median = medianOf(all.first(agreeing));
+  std::transform(matches.begin(), matches.end(), all.begin(), off);
   const float worst = std::abs(plane.center_px) + std::abs(plane.slope_x_px) + std::abs(plane.slope_y_px);
-  return {median, worst, count, plane, scatter};
+  return {median, worst, count, plane, medianOf(all)};
+}
+
+// Whether reduced rows of the one view may lie halfway between those of the other, so that the same things
+// look different there: by the offset, or because points are few or disagree.
+bool mayLieHalfway(const RowOffsets& rows, int scale) {
+  constexpr float kMostScatter_px = 0.25f;
+  const float reduced_rows = rows.median_px / static_cast<float>(scale);
+  return !(rows.scatter_px <= kMostScatter_px && std::abs(reduced_rows - std::round(reduced_rows)) < 0.25f);
 }
 
 }  // namespace
 
-void RowCheck::reduce(ImageView<const std::uint8_t> in, int scale, View& view, const CameraKernels& kernels,
-                      int threads) {
+void RowCheck::reduce(ImageView<const std::uint8_t> in, int scale, int lower, View& view,
+                      const CameraKernels& kernels, int threads) {
   constexpr int kFewestRows = 32;
   const int width = in.width / scale, height = in.height / scale;
   view.coarse.resize(width, height);
   view.contrast.resize(width, height);
   parallelStrips(threads, height, kFewestRows, [&](int begin, int end) {
     for (int y = begin; y < end; ++y)
-      kernels.reduceBlocks(in.row(y * scale), in.stride, scale, width, view.coarse.row(y));
+      kernels.reduceBlocks(in.row(std::min(y * scale + lower, in.height - scale)), in.stride, scale, width,
+                           view.coarse.row(y));
   });
   parallelStrips(threads, height, kFewestRows, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
@@ -250,15 +269,14 @@ void RowCheck::reduce(ImageView<const std::uint8_t> in, int scale, View& view, c
 
 RowOffsets RowCheck::measure(Bytes left, Bytes right, int min_disparity, int num_disparities,
                              const CameraKernels& kernels, int threads, int reach_px) {
-  std::array<Match, kColumns * kRows> matches;
-  int count = 0;
-  const auto matchReducedBy = [&](int scale) {
-    reduce(left, scale, left_, kernels, threads);
-    reduce(right, scale, right_, kernels, threads);
+  // Reduced rows of the right view begin `lower` full ones below those of the left one.
+  const auto measureReducedBy = [&](int scale, int lower) {
+    reduce(left, scale, 0, left_, kernels, threads);
+    reduce(right, scale, lower, right_, kernels, threads);
     const auto view = [](const Image<std::uint8_t>& image) { return image.view(); };
     const ReducedPair pair{
-        left, right, view(left_.coarse), view(right_.coarse), view(left_.contrast), view(right_.contrast),
-        scale};
+        left,  right, view(left_.coarse), view(right_.coarse), view(left_.contrast), view(right_.contrast),
+        scale, lower};
     const Range disparities{min_disparity / scale - 1, (min_disparity + num_disparities) / scale + 2};
     std::array<std::optional<Match>, kColumns * kRows> found;
     parallelFor(threads, kRows, [&](int row) {
@@ -266,16 +284,23 @@ RowOffsets RowCheck::measure(Bytes left, Bytes right, int min_disparity, int num
         found[static_cast<std::size_t>(cell)] =
             matchIn(cell, pair, disparities, std::max(1, reach_px / scale));
     });
-    count = 0;
+    std::array<Match, kColumns * kRows> matches;
+    std::size_t count = 0;
     for (const std::optional<Match>& match : found)
-      if (match) matches[static_cast<std::size_t>(count++)] = *match;
+      if (match) matches[count++] = *match;
+    return summary(std::span<const Match>(matches.data(), count), left.width, left.height);
   };
-  const int scale = left.width >= 800 ? 4 : left.width >= 400 ? 2 : 1;
-  matchReducedBy(scale);
+  int scale = left.width >= 800 ? 4 : left.width >= 400 ? 2 : 1;
+  RowOffsets rows = measureReducedBy(scale, 0);
   // Fine texture is lost where it is reduced, or looks different where it lies half a reduced row off. Not
   // reduced at all, hot pixels would mislead.
-  if (count < kFewestRowPoints && scale > 2) matchReducedBy(scale / 2);
-  return summary(matches.data(), count, left.width, left.height);
+  if (rows.points < kFewestRowPoints && scale > 2) rows = measureReducedBy(scale /= 2, 0);
+  if (scale > 1 && mayLieHalfway(rows, scale)) {
+    const RowOffsets halfway = measureReducedBy(scale, scale / 2);
+    // Not for a few more: those may be wrong.
+    if (2 * halfway.points > 3 * rows.points) rows = halfway;
+  }
+  return rows;
 }
 
 }  // namespace pomona

@@ -18,8 +18,9 @@ struct RowOffsetPlane {
 };
 
 struct RowOffsets {
-  /// Median of y_right - y_left over the points: positive where the right view shows things lower. NaN if
-  /// fewer than 10 points could be matched.
+  /// Median of y_right - y_left over the points within 1 px of the plane, positive where the right view shows
+  /// things lower: repeated patterns make matches that are off, and disagree. NaN if fewer than 10 points
+  /// could be matched, or fewer than 5 of them agree.
   float median_px;
   /// The largest |y_right - y_left| in any corner of the image, by a plane fitted to the points: notices a
   /// camera that is turned, too. NaN where median_px is.
@@ -41,7 +42,9 @@ constexpr bool seemExchanged(const RowOffsets& as_given, const RowOffsets& excha
 /// Matches up to 160 well-textured points of the left view in two dimensions: by sums of absolute differences
 /// in views reduced to a quarter (a half below 800 px of width, not at all below 400), then by Lucas &
 /// Kanade's method (1981) there and at full size; where fewer than 10 points match in views reduced to a
-/// quarter, once more in halves. The result does not depend on the number of threads. Keeps its memory
+/// quarter, once more in halves. Where they disagree, or their rows seem to lie halfway between each other's
+/// in the reduced views, once more with the right view reduced half a row lower: that result is taken if it
+/// has half again as many points. The result does not depend on the number of threads. Keeps its memory
 /// between frames.
 class RowCheck {
  public:
@@ -57,8 +60,8 @@ class RowCheck {
     Image<std::uint8_t>
         contrast;  // 128 + what stands out from its surroundings, for matching across exposures
   };
-  static void reduce(ImageView<const std::uint8_t> in, int scale, View& view, const CameraKernels& kernels,
-                     int threads);
+  static void reduce(ImageView<const std::uint8_t> in, int scale, int lower, View& view,
+                     const CameraKernels& kernels, int threads);
 
   View left_, right_;
 };

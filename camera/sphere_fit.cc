@@ -171,7 +171,9 @@ std::optional<double> parallaxAlong(const cv::Vec3d& ray, const FittedSphere& sp
   const double inside =
       along * along - sphere.center_m.dot(sphere.center_m) + sphere.radius_m * sphere.radius_m;
   if (inside <= 0) return {};
-  return calibration.focal_px * calibration.baseline_m / ((along - std::sqrt(inside)) * ray[2]);
+  const double depth_m = (along - std::sqrt(inside)) * ray[2];
+  if (depth_m <= 0) return {};
+  return calibration.focal_px * calibration.baseline_m / depth_m;
 }
 
 std::vector<FittedSphere> vote(const RegionSamples& region, const Outline& outline, const RadiusPrior& prior,

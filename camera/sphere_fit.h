@@ -26,7 +26,8 @@ struct FittedSphere {
   double score = 0;
 };
 
-/// The parallax of the sphere's near side along the ray, in pixels; none beside it.
+/// The parallax of the sphere's near side along the ray, in pixels; none beside it, or if that side is not
+/// before the camera, which is in the sphere or beyond it.
 std::optional<double> parallaxAlong(const cv::Vec3d& ray, const FittedSphere& sphere,
                                     const StereoCalibration& calibration);
 
@@ -38,7 +39,7 @@ std::optional<double> parallaxAlong(const cv::Vec3d& ray, const FittedSphere& sp
 /// measured along b: the factor of p depends on the place in the image alone. So for each b and alpha every
 /// pixel votes for one q, with its trust and a weight that falls from the middle of the outline; those on a
 /// sphere like that vote for the same. Of a coarse grid of b and alpha around the outline's, those with most
-/// votes within 1/2 px: up to eight, at least 1 px apart, best first. Of the spheres only centre and radius
+/// votes within 1/2 px: up to eight, at least 1/2 px apart, best first. Of the spheres only centre and radius
 /// are set.
 std::vector<FittedSphere> vote(const RegionSamples& region, const Outline& outline, const RadiusPrior& prior,
                                const StereoCalibration& calibration);

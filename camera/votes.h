@@ -19,8 +19,9 @@ class Votes {
 
   void clear();
   void add(double value, double weight);
-  /// Peaks that are closer than this are one.
-  static constexpr double kApart_px = 1;
+  /// Peaks that are closer than this are one: their windows overlap. No more, for a leaf may lie less than a
+  /// pixel before a far fruit.
+  static constexpr double kApart_px = 0.5;
   /// The window of 1/2 px with most votes: their sum and their mean. Windows that come within kApart_px of
   /// `other_than` do not count.
   Peak peak(double other_than = -10) const;

@@ -249,6 +249,12 @@ class GoodInput(CommandTest):
         azimuth, elevation = (math.degrees(entries[0][key]) for key in ("azimuth_rad", "elevation_rad"))
         self.assertIn(f", {abs(azimuth):.2f} deg {'left' if azimuth < 0 else 'right'}, "
                       f"{abs(elevation):.2f} deg {'down' if elevation < 0 else 'up'}, ", lines[0])
+        exchanged = self.run_command("measure", views[2], views[1], *views[3:], "--box", box, "--json")
+        self.assertRegex(exchanged.stderr, "^pomona: warning: whether the views' rows match is unknown.*\n$")
+        self.assertEqual(len(json.loads(exchanged.stdout)), 1)
+        self.assert_accepted(self.run_command("render", "boxes", "--size", "640x480", "--right-shift", "2", "-o", "off"))
+        off = self.run_command("measure", "off/im0.png", "off/im1.png", "--calib", "off/calib.txt", "--point", "320,240")
+        self.assertRegex(off.stderr, "^pomona: warning: the right view is -[12][.][0-9]+ rows off.*; it was moved: .*\n$")
         corners = self.run_command(*views, *(f"--box={width * i // 4 - 15},{height * j // 4 - 15},31,31"
                                              for i in (1, 3) for j in (1, 3)), "--shape", "surface").stdout
         for side in (" deg left", " deg right", " deg up", " deg down"):

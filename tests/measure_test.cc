@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "camera/seen_share.h"
+#include "camera/sphere_fit.h"
 #include "file_support.h"
 
 namespace pomona {
@@ -179,6 +181,23 @@ TEST(MeasureObject, BelievesWhatWasMeasuredRatherThanWhatWasFilled) {
   expectSphere(measureObject(result, camera(), kBox), 0.005);
 }
 
+// Far away, a leaf 2 cm before a fruit is less than a pixel nearer: both are to be tried.
+TEST(MeasureObject, TellsAFarFruitFromALeafLessThanAPixelBeforeIt) {
+  constexpr double kDepth_m = 1.85, kFruitRadius_m = 0.042, kNear_m = kDepth_m - kFruitRadius_m;
+  for (const double gap_m : {0.015, 0.02, 0.025})
+    for (const int height : {22, 34, 46})
+      for (const int x : {139, 149, 157}) {
+        World world;
+        world.addSphere({0, 0, kDepth_m}, kFruitRadius_m, 0.9);
+        world.addPlane({x, 120 - height / 2, 22, height}, kNear_m - gap_m, 0.0003);
+        world.addPlane({0, 0, kWidth, kHeight}, 2.3);
+        const ObjectMeasurement m = measureObject(world.result(0.12), camera(), cv::Rect(137, 97, 47, 47));
+        SCOPED_TRACE(::testing::Message() << gap_m << ' ' << height << ' ' << x);
+        ASSERT_TRUE(m.ok()) << explain(m.failure);
+        EXPECT_NEAR(m.distance_m, kNear_m, 0.006 * kNear_m);
+      }
+}
+
 // Apples are no spheres: what lies a little behind the sphere is not seen through it, even if a leaf hides
 // most of the fruit.
 TEST(MeasureObject, FindsAFlatFruitBehindALeaf) {
@@ -245,6 +264,48 @@ TEST(MeasureObject, MeasuresWhatReachesOutOfTheRightView) {
   ASSERT_TRUE(m.ok()) << explain(m.failure);
   const double near_m = cv::norm(center) - kRadius_m;
   EXPECT_NEAR(m.distance_m, near_m, 0.005 * near_m);
+}
+
+// With cameras that converge, things far away have partners beyond the right border, too.
+TEST(SeenShare, LeavesOutWhatTheRightViewCannotSee) {
+  constexpr double kParallax_px = 40, kReach_px = 1;
+  StereoCalibration calibration = camera();
+  const auto shareWithUnmeasuredAt = [&](double x_px, double doffs_px) {
+    calibration.doffs_px = doffs_px;
+    RegionSamples region;
+    region.view_width_px = kWidth;
+    SurfaceSample seen{};
+    seen.parallax_px = kParallax_px;
+    seen.centrality = 1;
+    seen.measured = true;
+    region.samples.push_back(seen);
+    region.unmeasured.push_back({rayOf(x_px, 120), x_px, 1});
+    const auto everywhere = [&](const cv::Vec3d&) { return std::optional(kParallax_px); };
+    return seenShare(region, calibration, everywhere, kReach_px);
+  };
+  EXPECT_DOUBLE_EQ(shareWithUnmeasuredAt(36, 3), 1);
+  EXPECT_DOUBLE_EQ(shareWithUnmeasuredAt(37, 3), 0.5);
+  EXPECT_DOUBLE_EQ(shareWithUnmeasuredAt(kWidth - 1, 3), 0.5);
+  EXPECT_DOUBLE_EQ(shareWithUnmeasuredAt(kWidth - 20, 60), 1);
+  EXPECT_DOUBLE_EQ(shareWithUnmeasuredAt(kWidth - 21, 60), 0.5);
+}
+
+TEST(ParallaxAlong, IsThatOfTheNearSideAndNoneElsewhere) {
+  const cv::Vec3d ahead(0, 0, 1);
+  const auto parallax = [&](double depth_m) {
+    FittedSphere sphere;
+    sphere.center_m = {0, 0, depth_m};
+    sphere.radius_m = 0.1;
+    return parallaxAlong(ahead, sphere, camera());
+  };
+  ASSERT_TRUE(parallax(0.5).has_value());
+  EXPECT_NEAR(*parallax(0.5), 1000 * 0.12 / 0.4, 1e-9);
+  EXPECT_FALSE(parallax(0.05).has_value());  // the camera is inside
+  EXPECT_FALSE(parallax(-0.5).has_value());
+  FittedSphere beside;
+  beside.center_m = {0.2, 0, 0.5};
+  beside.radius_m = 0.1;
+  EXPECT_FALSE(parallaxAlong(ahead, beside, camera()).has_value());
 }
 
 TEST(MeasureObject, NeedsNoMapsButTheDisparity) {

@@ -100,6 +100,7 @@ int run(const std::string& rig_path, const std::string& source, const std::optio
   Clock::time_point loop_start;  // the end of the first frame, which makes the buffers
   double loop_ms = 0;
   int frame = 0;
+  bool rows_unknown_said = false;
   for (bool go_on = true; go_on; ++frame) {
     const std::optional<Pair> pair = upcoming.get();
     if (!pair) break;
@@ -109,6 +110,8 @@ int run(const std::string& rig_path, const std::string& source, const std::optio
     const std::vector<Pick> picks = pickingList(result, engine.calibration(), engine.leftView());
     if (frame > 0) latencies_ms.push_back(millisecondsSince(start));
     print(frame, picks);
+    if (std::isnan(result.row_offset_px) && !std::exchange(rows_unknown_said, true))
+      std::printf("frame %d  note: unknown whether rows match (said once); see pomona check\n", frame);
     if (result.rowsAreOff())
       std::printf("frame %d  warning: the right view is %+.1f rows off%s: the rig wants a new calibration\n",
                   frame, result.row_offset_px, result.rows_aligned ? ", and was moved" : "");

@@ -90,6 +90,15 @@ with tempfile.TemporaryDirectory() as folder:
     assert "frames per second, reading and drawing included; latency p50" in text, text
     assert sorted(os.listdir(drawn)) == ["frame0000.jpg", "frame0001.jpg"]
 
+    # Views that are exchanged have no partners: that rows are unknown is said once.
+    exchanged = os.path.join(folder, "exchanged")
+    os.mkdir(exchanged)
+    for name in os.listdir(frames):
+        other = name.replace("left", "Right").replace("right", "left").lower()
+        shutil.copy(os.path.join(frames, name), os.path.join(exchanged, other))
+    text = run(HARVEST, calibration, exchanged)
+    assert text.count("unknown whether rows match") == 1 and "frame 1" in text, text
+
     # Fruits that touch, of one colour and behind leaves: each is on the list, and once.
     orchard = os.path.join(folder, "orchard")
     run(POMONA, "render", "orchard", "--seed", "11", "--distance", "1..1.2", "-o", orchard)
