@@ -225,7 +225,7 @@ void lastPass(const AggregateRow& r, const WinnerRow& w) {
 }
 
 /// Calls f(number of vectors, whether there are diagonals, wide sums, cheap costs), as constants. Cheap costs
-/// that come with few paths or wide sums are stored first, like others.
+/// that come with wide sums are stored first, like others.
 template <typename F>
 POMONA_OP void withShape(const AggregateRow& r, F f) {
   constexpr Constant<1> yes{};
