@@ -90,10 +90,11 @@ struct AggregateRow {
   bool wide_sums;        ///< 16-bit partial sums instead of the 8-bit ones
   const std::uint8_t* cost;  ///< width * vectors * kBytes; or null:
   CensusCostRow census;      ///< the costs are those of three planes, and computed on the way; the sum of
-                             ///< four path costs is below 256
+                             ///< the sweep's path costs is below 256
   std::uint8_t* path[3];  ///< in: costs of the previous row, out: of this one; guard pixels are zero. Without
                           ///< diagonals only path[1] is used
-  std::uint32_t* minima;  ///< 4 quads per pixel (left, straight, right, horizontal); guard pixels are zero
+  std::uint32_t* minima;  ///< 4 quads per pixel (left, straight, right, horizontal; without diagonals
+                          ///< the second and the fourth count); guard pixels are zero
   const std::uint8_t*
       step[4];  ///< colour step into pixel x, in the order of `minima`; anything at a path's start
   const std::uint32_t* p2;  ///< 256 quads: the penalty for a colour step

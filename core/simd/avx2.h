@@ -64,8 +64,9 @@ POMONA_OP U8 nextLane(U8 v) {
   return _mm256_alignr_epi8(_mm256_permute2x128_si256(v, _mm256_set1_epi8(-1), 0x21), v, 1);
 }
 
-using Minima = __m256i;                 // 64-bit parts hold, in every byte, the minima of a, c, b, d
-POMONA_OP Minima minimaOfParts(U8 m) {  // of the 64-bit parts of m
+using Minima = __m256i;  // 64-bit parts hold, in every byte, the minima of a, c, b, d
+
+POMONA_OP Minima minimaOfParts(U8 m) {
   m = min(m, _mm256_shuffle_epi32(m, 0xB1));
   const __m256i by_two = _mm256_setr_epi8(2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13,  //
                                           2, 3, 0, 1, 6, 7, 4, 5, 10, 11, 8, 9, 14, 15, 12, 13);
